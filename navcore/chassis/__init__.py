@@ -1,0 +1,1 @@
+"""All that touches CAN. Standard library and python-can only."""

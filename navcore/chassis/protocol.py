@@ -1,0 +1,106 @@
+"""What crosses the guard's sockets and what the chassis says of itself.
+
+Commands are fixed-size little-endian datagrams; a datagram of another size or magic is refused.
+"""
+
+from __future__ import annotations
+
+import struct
+from dataclasses import dataclass
+from enum import IntEnum
+
+MOTION = struct.Struct("<4sQqqdd")
+MOTION_MAGIC = b"RPM1"
+
+
+class ControlMode(IntEnum):
+    """Who commands the chassis (0x211 byte 1, Scout manual 1.3.0, table 3.3)."""
+
+    STANDBY = 0
+    CAN = 1
+    SERIAL = 2
+    REMOTE = 3
+
+
+class VehicleState(IntEnum):
+    """State of the chassis (0x211 byte 0)."""
+
+    NORMAL = 0
+    EMERGENCY_STOP = 1
+    EXCEPTION = 2
+
+
+class GuardState(IntEnum):
+    """State of the guard. Only ARMED lets motion frames out."""
+
+    SILENT = 0
+    ARMED = 1
+    LATCHED = 2
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MotionCommand:
+    """One decision for the chassis, in `base_link`.
+
+    Attributes:
+        v: forward speed, m/s.
+        omega: turn rate, rad/s, positive to the left.
+        seq: strictly increasing within one arming.
+        stamp_ns: monotonic time of the decision.
+        deadline_ns: monotonic time after which the command must not act: the earliest of
+            (capture + maximum age) over the inputs that the decision used.
+    """
+
+    v: float
+    omega: float
+    seq: int
+    stamp_ns: int
+    deadline_ns: int
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ChassisState:
+    """All that the chassis reports, newest value of each frame.
+
+    Attributes:
+        stamp_ns: monotonic time at which the newest motion frame (0x221) arrived.
+        system_stamp_ns: monotonic time at which the newest system frame (0x211) arrived, 0 before the first.
+        v, omega: measured speed in m/s and turn rate in rad/s (from the wheels: slip is not seen).
+        left_mm, right_mm: odometers.
+        voltage_v: battery.
+        faults: 0x211 byte 4.
+        driver_faults: states of the motor drivers, front right first, clockwise.
+        guard: state of the guard that sent this.
+        guard_reason: why the guard is not ARMED, or what it refused last; empty when all is well.
+        accepted_seq: newest command that became a frame.
+    """
+
+    stamp_ns: int
+    system_stamp_ns: int
+    v: float
+    omega: float
+    left_mm: int
+    right_mm: int
+    state: VehicleState
+    mode: ControlMode
+    voltage_v: float
+    faults: int
+    driver_faults: tuple[int, int, int, int]
+    guard: GuardState
+    guard_reason: str
+    accepted_seq: int
+
+
+def encode_motion(command: MotionCommand) -> bytes:
+    """Datagram of one command."""
+    return MOTION.pack(
+        MOTION_MAGIC, command.seq, command.stamp_ns, command.deadline_ns, command.v, command.omega
+    )
+
+
+def decode_motion(datagram: bytes) -> MotionCommand | None:
+    """Command of one datagram, or None if it is none of ours."""
+    if len(datagram) != MOTION.size or not datagram.startswith(MOTION_MAGIC):
+        return None
+    _, seq, stamp_ns, deadline_ns, v, omega = MOTION.unpack(datagram)
+    return MotionCommand(v=v, omega=omega, seq=seq, stamp_ns=stamp_ns, deadline_ns=deadline_ns)

@@ -1,0 +1,19 @@
+"""The `rowpilot` command. Each verb is a thin file over the rooms below."""
+
+from __future__ import annotations
+
+import typer
+
+app = typer.Typer(
+    name="rowpilot", help="Onboard operator station for orchard and vineyard robots.", no_args_is_help=True
+)
+
+
+@app.callback()
+def rowpilot() -> None:
+    """Onboard operator station for orchard and vineyard robots."""
+
+
+def main() -> None:
+    """Entry point of the `rowpilot` command."""
+    app()

@@ -1,0 +1,1 @@
+"""From a path to a speed and a turn rate."""

@@ -1,0 +1,1 @@
+"""Receivers and sensors: bytes in, messages out."""

@@ -1,0 +1,1 @@
+"""Angles, rigid transforms, lines, polylines, pinhole camera, geodesy."""

@@ -1,0 +1,1 @@
+"""The site map: orthophoto frame, rows, lanes, zones; and its GeoJSON form."""

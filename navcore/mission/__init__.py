@@ -1,0 +1,1 @@
+"""Events and their effects, the state machine, the mode selector."""

@@ -1,0 +1,1 @@
+"""The walk through the house: predict, correct, choose the mode, follow, regulate, check zones, decide."""

@@ -1,0 +1,1 @@
+"""From pixels and scans to the row ahead."""

@@ -1,0 +1,1 @@
+"""From a mission on the site map to a path."""

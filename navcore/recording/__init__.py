@@ -1,0 +1,1 @@
+"""A run as an MCAP file: recorder, player, export."""

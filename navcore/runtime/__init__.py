@@ -1,0 +1,1 @@
+"""Processes, clocks and wiring; the same objects in one thread for tests."""

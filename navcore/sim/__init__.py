@@ -1,0 +1,1 @@
+"""A world built from the site map, with everything unkind in it."""

@@ -1,0 +1,1 @@
+"""Encode once; local publish and subscribe, request and reply."""
