@@ -93,9 +93,7 @@ class ChassisState:
 
 def encode_motion(command: MotionCommand) -> bytes:
     """Datagram of one command."""
-    return MOTION.pack(
-        MOTION_MAGIC, command.seq, command.stamp_ns, command.deadline_ns, command.v, command.omega
-    )
+    return MOTION.pack(MOTION_MAGIC, command.seq, command.stamp_ns, command.deadline_ns, command.v, command.omega)
 
 
 def decode_motion(datagram: bytes) -> MotionCommand | None:

@@ -50,7 +50,7 @@ class PinholeCamera:
 
     def R_base_camera(self) -> Floats:
         """Rotation from optical axes to `base_link`, shape (3, 3)."""
-        return rotation_from_rpy(self.roll, self.pitch, self.yaw) @ R_BASE_OPTICAL
+        return np.asarray(rotation_from_rpy(self.roll, self.pitch, self.yaw) @ R_BASE_OPTICAL)
 
     def project(self, points_base: Floats) -> Floats:
         """Pixels (N, 2) of points (N, 3) in `base_link`; NaN where a point is not in front of the camera."""
@@ -61,9 +61,7 @@ class PinholeCamera:
     def ground(self, pixels: Floats) -> Floats:
         """Points (N, 2) on the ground plane z = 0 of `base_link` under pixels (N, 2); NaN at or above the horizon."""
         uv = np.asarray(pixels, dtype=np.float64)
-        rays = np.column_stack(
-            ((uv[:, 0] - self.cx) / self.fx, (uv[:, 1] - self.cy) / self.fy, np.ones(len(uv)))
-        )
+        rays = np.column_stack(((uv[:, 0] - self.cx) / self.fx, (uv[:, 1] - self.cy) / self.fy, np.ones(len(uv))))
         d = rays @ self.R_base_camera().T
         scale = np.where(d[:, 2] < -1e-6, -self.z / np.minimum(d[:, 2], -1e-6), np.nan)
         return np.column_stack((self.x + scale * d[:, 0], self.y + scale * d[:, 1]))
