@@ -204,6 +204,8 @@ class PathSegment:
         reverse: driven backwards, looking with the rear camera.
         row_id: the row that is entered, driven, or left; None elsewhere.
         corridor_width: width between the lines of plants, m, where `row_id` is given.
+        row_start, row_end: ends of that row's centre line as drawn, `row_start` being the end at which this
+            segment's direction of driving enters it.
     """
 
     kind: SegmentKind
@@ -212,6 +214,8 @@ class PathSegment:
     reverse: bool = False
     row_id: str | None = None
     corridor_width: float | None = None
+    row_start: Point | None = None
+    row_end: Point | None = None
 
 
 class LinkLossPolicy(StrEnum):
@@ -332,20 +336,58 @@ class NavStatus:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class CameraRequest:
+    """What the row worker should look at, and what it may expect to see.
+
+    Attributes:
+        odom_x, odom_y, odom_yaw: smooth dead-reckoned pose of `base_link` at `stamp_ns`, for motion between frames.
+        offset, heading: of the wanted row's centre line in the driving frame at `stamp_ns`, as in `RowObservation`;
+            None where no row is expected.
+        offset_std: 1-sigma of `offset`, m.
+        width: corridor width, m.
+        to_start: metres ahead at which the wanted row begins (negative inside), by map and odometry.
+        to_end: metres ahead at which it ends.
+    """
+
+    stamp_ns: int
+    camera: CameraName
+    odom_x: float
+    odom_y: float
+    odom_yaw: float
+    offset: float | None = None
+    heading: float | None = None
+    offset_std: float | None = None
+    width: float | None = None
+    to_start: float | None = None
+    to_end: float | None = None
+
+
+class GuardRequest(StrEnum):
+    """What a decision asks of the guard beside its command."""
+
+    ARM = "arm"
+    DISARM = "disarm"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Decision:
     """Outcome of one tick.
 
     Attributes:
         command: for the guard; None means: send nothing (silence means stop).
         switch: set in the tick in which the mode changed.
-        camera: which camera the row worker should look through.
+        camera: what the row worker should look at; None where no row matters.
+        guard_request: sent to the guard before the command.
+        replies: answers to the requests that this tick consumed.
     """
 
     stamp_ns: int
     command: MotionCommand | None
     status: NavStatus
     switch: ModeSwitch | None
-    camera: CameraName | None
+    camera: CameraRequest | None
+    guard_request: GuardRequest | None = None
+    replies: tuple[Reply, ...] = ()
 
 
 class RequestKind(StrEnum):

@@ -78,6 +78,15 @@ NAV_PLAN = Topic(
     logged=True,
     shown=True,
 )
+CAMERA_REQUEST = Topic(
+    name="camera/request",
+    type=m.CameraRequest,
+    publisher="navigator",
+    rate_hz=50,
+    max_age_s=0.2,
+    logged=False,
+    shown=False,
+)
 GNSS_FIX = Topic(
     name="gnss/fix", type=m.GnssFix, publisher="navigator", rate_hz=5, max_age_s=1.0, logged=True, shown=True
 )
@@ -114,7 +123,7 @@ SIM_TRUTH = Topic(
 TOPICS: dict[str, Topic] = {
     t.name: t
     for t in (
-        NAV_INPUTS, NAV_DECISION, NAV_STATUS, NAV_SWITCH, NAV_PLAN, GNSS_FIX, CHASSIS_STATE, IMU_SAMPLE,
+        NAV_INPUTS, NAV_DECISION, NAV_STATUS, NAV_SWITCH, NAV_PLAN, CAMERA_REQUEST, GNSS_FIX, CHASSIS_STATE, IMU_SAMPLE,
         ROW_OBSERVATION, CAMERA_VIEW, SIM_TRUTH,
     )
 }  # fmt: skip
