@@ -11,6 +11,14 @@ from enum import IntEnum
 
 MOTION = struct.Struct("<4sQqqdd")
 MOTION_MAGIC = b"RPM1"
+REQUEST = struct.Struct("<4sBq")
+REQUEST_MAGIC = b"RPG1"
+STOP = struct.Struct("<4sQ")
+STOP_MAGIC = b"RPS1"
+STOPPED_MAGIC = b"RPK1"
+STATE = struct.Struct("<4sqqddqqBBdB4BBq")
+STATE_MAGIC = b"RPC1"
+LONGEST_DATAGRAM = 512
 
 
 class ControlMode(IntEnum):
@@ -36,6 +44,18 @@ class GuardState(IntEnum):
     SILENT = 0
     ARMED = 1
     LATCHED = 2
+
+
+class GuardRequest(IntEnum):
+    """What the navigator may ask of the guard besides motion.
+
+    ARM after an operator's deliberate start, DISARM at the end of a run, ACKNOWLEDGE (LATCHED -> SILENT) after the
+    operator has acknowledged why the guard latched.
+    """
+
+    ARM = 1
+    DISARM = 2
+    ACKNOWLEDGE = 3
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -102,3 +122,59 @@ def decode_motion(datagram: bytes) -> MotionCommand | None:
         return None
     _, seq, stamp_ns, deadline_ns, v, omega = MOTION.unpack(datagram)
     return MotionCommand(v=v, omega=omega, seq=seq, stamp_ns=stamp_ns, deadline_ns=deadline_ns)
+
+
+def encode_request(request: GuardRequest, stamp_ns: int) -> bytes:
+    """Datagram of a request, stamped so that one which waited in a queue is not obeyed late."""
+    return REQUEST.pack(REQUEST_MAGIC, request, stamp_ns)
+
+
+def decode_request(datagram: bytes) -> tuple[GuardRequest, int] | None:
+    """Request and its stamp, or None if it is none of ours."""
+    if len(datagram) != REQUEST.size or not datagram.startswith(REQUEST_MAGIC):
+        return None
+    _, request, stamp_ns = REQUEST.unpack(datagram)
+    return (GuardRequest(request), stamp_ns) if request in tuple(GuardRequest) else None
+
+
+def encode_stop(number: int) -> bytes:
+    """Datagram that stops the robot; the guard answers with the same number."""
+    return STOP.pack(STOP_MAGIC, number)
+
+
+def answer_stop(datagram: bytes) -> bytes | None:
+    """Answer to a STOP datagram, or None if it is none."""
+    if len(datagram) != STOP.size or not datagram.startswith(STOP_MAGIC):
+        return None
+    return STOP.pack(STOPPED_MAGIC, STOP.unpack(datagram)[1])
+
+
+def is_stop_acknowledgement(datagram: bytes, number: int) -> bool:
+    """True if the guard says with this datagram that it has latched on STOP `number`."""
+    return datagram == STOP.pack(STOPPED_MAGIC, number)
+
+
+def encode_state(state: ChassisState) -> bytes:
+    """Datagram of the chassis' state; the reason follows the fixed part as UTF-8."""
+    fixed = STATE.pack(
+        STATE_MAGIC, state.stamp_ns, state.system_stamp_ns, state.v, state.omega, state.left_mm, state.right_mm,
+        state.state, state.mode, state.voltage_v, state.faults, *state.driver_faults, state.guard, state.accepted_seq,
+    )  # fmt: skip
+    return (fixed + state.guard_reason.encode())[:LONGEST_DATAGRAM]
+
+
+def decode_state(datagram: bytes) -> ChassisState | None:
+    """State of one datagram, or None if it is none of ours."""
+    if len(datagram) < STATE.size or not datagram.startswith(STATE_MAGIC):
+        return None
+    fields = STATE.unpack_from(datagram)
+    (_, stamp_ns, system_stamp_ns, v, omega, left_mm, right_mm, state, mode, voltage_v, faults) = fields[:11]
+    try:
+        return ChassisState(
+            stamp_ns=stamp_ns, system_stamp_ns=system_stamp_ns, v=v, omega=omega, left_mm=left_mm, right_mm=right_mm,
+            state=VehicleState(state), mode=ControlMode(mode), voltage_v=voltage_v, faults=faults,
+            driver_faults=fields[11:15], guard=GuardState(fields[15]), accepted_seq=fields[16],
+            guard_reason=datagram[STATE.size :].decode(errors="ignore"),
+        )  # fmt: skip
+    except ValueError:
+        return None
