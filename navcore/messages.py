@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from enum import IntEnum, StrEnum
 
 from navcore.chassis.protocol import ChassisState, MotionCommand
+from navcore.chassis.protocol import GuardRequest as GuardRequest
 
 Point = tuple[float, float]
 
@@ -362,13 +363,6 @@ class CameraRequest:
     to_end: float | None = None
 
 
-class GuardRequest(StrEnum):
-    """What a decision asks of the guard beside its command."""
-
-    ARM = "arm"
-    DISARM = "disarm"
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Decision:
     """Outcome of one tick.
@@ -377,7 +371,8 @@ class Decision:
         command: for the guard; None means: send nothing (silence means stop).
         switch: set in the tick in which the mode changed.
         camera: what the row worker should look at; None where no row matters.
-        guard_request: sent to the guard before the command.
+        guard_request: sent to the guard before the command: ARM in every tick from a deliberate start until the guard
+            is ARMED, DISARM at the end of a run, ACKNOWLEDGE after the operator has acknowledged the guard's latch.
         replies: answers to the requests that this tick consumed.
     """
 

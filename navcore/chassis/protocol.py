@@ -7,11 +7,11 @@ from __future__ import annotations
 
 import struct
 from dataclasses import dataclass
-from enum import IntEnum
+from enum import IntEnum, StrEnum
 
 MOTION = struct.Struct("<4sQqqdd")
 MOTION_MAGIC = b"RPM1"
-REQUEST = struct.Struct("<4sBq")
+REQUEST = struct.Struct("<4s12sq")
 REQUEST_MAGIC = b"RPG1"
 STOP = struct.Struct("<4sQ")
 STOP_MAGIC = b"RPS1"
@@ -46,16 +46,16 @@ class GuardState(IntEnum):
     LATCHED = 2
 
 
-class GuardRequest(IntEnum):
+class GuardRequest(StrEnum):
     """What the navigator may ask of the guard besides motion.
 
     ARM after an operator's deliberate start, DISARM at the end of a run, ACKNOWLEDGE (LATCHED -> SILENT) after the
     operator has acknowledged why the guard latched.
     """
 
-    ARM = 1
-    DISARM = 2
-    ACKNOWLEDGE = 3
+    ARM = "arm"
+    DISARM = "disarm"
+    ACKNOWLEDGE = "acknowledge"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -126,15 +126,17 @@ def decode_motion(datagram: bytes) -> MotionCommand | None:
 
 def encode_request(request: GuardRequest, stamp_ns: int) -> bytes:
     """Datagram of a request, stamped so that one which waited in a queue is not obeyed late."""
-    return REQUEST.pack(REQUEST_MAGIC, request, stamp_ns)
+    return REQUEST.pack(REQUEST_MAGIC, request.encode(), stamp_ns)
 
 
 def decode_request(datagram: bytes) -> tuple[GuardRequest, int] | None:
     """Request and its stamp, or None if it is none of ours."""
     if len(datagram) != REQUEST.size or not datagram.startswith(REQUEST_MAGIC):
         return None
-    _, request, stamp_ns = REQUEST.unpack(datagram)
-    return (GuardRequest(request), stamp_ns) if request in tuple(GuardRequest) else None
+    _, word, stamp_ns = REQUEST.unpack(datagram)
+    known = {request.encode(): request for request in GuardRequest}
+    request = known.get(word.rstrip(b"\0"))
+    return (request, stamp_ns) if request is not None else None
 
 
 def encode_stop(number: int) -> bytes:
