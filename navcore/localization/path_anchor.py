@@ -1,0 +1,128 @@
+"""Where the planned path lies: the plan's `map` tied to the smooth odometry frame.
+
+On the road the tie is the pose filter's. In a row it is what the camera sees: the drawn row is laid onto the seen
+one, so that errors of the map and of GNSS under the canopy do not matter. Between them it is carried by odometry. A
+change of source never makes the robot jump: the tie that is followed slides to the wanted one at a bounded rate.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from navcore.geometry.angles import wrap
+from navcore.geometry.se2 import SE2
+
+HALF_TURN = SE2(0.0, 0.0, math.pi)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PathAnchorParams:
+    """Parameters of `PathAnchor`.
+
+    Attributes:
+        slide: how fast the followed path may move sideways or along, m/s, > 0.
+        turn: how fast it may turn, rad/s, > 0.
+        growth_lateral: 1-sigma of the lateral drift of odometry, m per square root of m driven, > 0.
+        growth_heading: 1-sigma of the heading drift, rad per square root of m driven, > 0.
+        map_lateral: 1-sigma of where a drawn row lies, m (survey by orthophoto: 0.3 to 0.8 m).
+        map_heading: 1-sigma of its direction, rad.
+        map_along: 1-sigma of where it begins and ends, m.
+        growth_along: 1-sigma of the drift along the path, m per square root of m driven (wheel slip).
+    """
+
+    slide: float = 0.15
+    turn: float = 0.10
+    growth_lateral: float = 0.02
+    growth_heading: float = 0.005
+    map_lateral: float = 0.6
+    map_heading: float = 0.03
+    map_along: float = 0.8
+    growth_along: float = 0.15
+
+
+@dataclass(frozen=True, slots=True)
+class RowLine:
+    """A drawn row's centre line in `map`: a point on it and the direction in which it is driven, rad."""
+
+    x: float
+    y: float
+    heading: float
+
+    def coordinates(self, pose: SE2) -> SE2:
+        """Pose in the row's own frame: x along, y to the left of the line, yaw from its direction."""
+        return SE2(self.x, self.y, self.heading).inverse() @ pose
+
+    def pose(self, coordinates: SE2) -> SE2:
+        """Pose in `map` of row coordinates."""
+        return SE2(self.x, self.y, self.heading) @ coordinates
+
+
+class PathAnchor:
+    """Ties `map` to `odom` by whichever source the robot drives on. Poses are of the driving frame."""
+
+    def __init__(self, T_map_odom: SE2, params: PathAnchorParams) -> None:
+        self.params = params
+        self.T_map_odom = T_map_odom
+        self.followed = T_map_odom
+        self.var_lateral = self.var_heading = self.var_along = 0.0
+        self.unsure()
+
+    def unsure(self) -> None:
+        """Forget how well the drawn row is known: the next row is told by the map alone."""
+        p = self.params
+        self.var_lateral, self.var_heading, self.var_along = p.map_lateral**2, p.map_heading**2, p.map_along**2
+
+    def drive(self, distance: float) -> None:
+        """Let the uncertainty grow over a driven distance, m."""
+        p, d = self.params, abs(distance)
+        self.var_lateral += p.growth_lateral**2 * d
+        self.var_heading += p.growth_heading**2 * d
+        self.var_along += p.growth_along**2 * d
+
+    def follow(self, T_map_odom: SE2) -> None:
+        """Take the pose filter's tie."""
+        self.T_map_odom = T_map_odom
+
+    def see_row(
+        self, row: RowLine, T_odom_drive: SE2, offset: float, heading: float, offset_std: float, heading_std: float
+    ) -> None:
+        """Lay the drawn row onto the seen centre line (`offset`, `heading` as in RowObservation, at capture)."""
+        at = row.coordinates(self.T_map_odom @ T_odom_drive)
+        gain_lateral = self.var_lateral / (self.var_lateral + offset_std**2)
+        gain_heading = self.var_heading / (self.var_heading + heading_std**2)
+        seen_yaw = wrap(-heading)
+        lateral = at.y + gain_lateral * (-offset - at.y)
+        yaw = at.yaw + gain_heading * wrap(seen_yaw - at.yaw)
+        self.var_lateral *= 1.0 - gain_lateral
+        self.var_heading *= 1.0 - gain_heading
+        self._set(row.pose(SE2(at.x, lateral, yaw)), T_odom_drive)
+
+    def see_along(self, row: RowLine, T_odom_drive: SE2, along: float, std: float) -> None:
+        """Correct the position along the row: `along` is the row coordinate x of the driving frame, m."""
+        at = row.coordinates(self.T_map_odom @ T_odom_drive)
+        gain = self.var_along / (self.var_along + std**2)
+        self.var_along *= 1.0 - gain
+        self._set(row.pose(SE2(at.x + gain * (along - at.x), at.y, at.yaw)), T_odom_drive)
+
+    def _set(self, T_map_drive: SE2, T_odom_drive: SE2) -> None:
+        self.T_map_odom = T_map_drive @ T_odom_drive.inverse()
+
+    def slide(self, T_odom_drive: SE2, dt: float) -> SE2:
+        """Move the followed tie towards the wanted one for `dt` seconds; the followed pose of the driving frame."""
+        at, wanted = self.followed @ T_odom_drive, self.T_map_odom @ T_odom_drive
+        dx, dy, dyaw = wanted.x - at.x, wanted.y - at.y, wrap(wanted.yaw - at.yaw)
+        share = _share(math.hypot(dx, dy), self.params.slide * dt)
+        turn = dyaw * _share(abs(dyaw), self.params.turn * dt)
+        pose = SE2(at.x + share * dx, at.y + share * dy, wrap(at.yaw + turn))
+        self.followed = pose @ T_odom_drive.inverse()
+        return pose
+
+    def jump(self) -> None:
+        """Follow the wanted tie at once (allowed at standstill only)."""
+        self.followed = self.T_map_odom
+
+
+def _share(distance: float, step: float) -> float:
+    """Part of a distance that one step covers."""
+    return 1.0 if distance <= step else step / distance

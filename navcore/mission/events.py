@@ -1,0 +1,255 @@
+"""The table of events: when each is on, what it does to the mission, and what the operator should know and do.
+
+The state machine sees effects only. To add a fault, add a line.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from navcore.chassis.protocol import ChassisState, ControlMode, GuardState, VehicleState
+from navcore.messages import LinkLossPolicy, NavMode, RunState
+from navcore.mission.state_machine import MOVING, UNDER_WAY, Effect
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class EventParams:
+    """Limits of the table; times in s, lengths in m.
+
+    Attributes:
+        chassis_s: age of the motion feedback 0x221 (hazard 9). system_s: of the system state 0x211 (hazard 10).
+        tick_slow_s, tick_stop_s: time between two ticks (hazard 7).
+        gnss_slow_s, gnss_stop_s: age of the position while it is driven on (hazard 27).
+        pose_std: dead-reckoned 1-sigma while GNSS is driven on. carried: metres driven on odometry alone.
+        row_hold_s: age of the row line while it is driven on (hazard 37). hold_stop_s: longest hold.
+        gnss_hold_s: longest wait for GNSS at the end of a row.
+        off_path_slow, off_path_stop: distance from the path (hazard 50).
+        progress_s: longest time without progress (hazard 49).
+        link_s: time without an operator's page (hazard 20).
+        arming_s: longest time for the chassis to obey.
+        start_distance: from the robot to the mission's start.
+        battery_low_v: warn and slow (hazard 52). battery_stop_v: stop.
+    """
+
+    chassis_s: float = 0.2
+    system_s: float = 0.5
+    tick_slow_s: float = 0.1
+    tick_stop_s: float = 0.2
+    gnss_slow_s: float = 1.0
+    gnss_stop_s: float = 3.0
+    pose_std: float = 0.6
+    carried: float = 30.0
+    row_hold_s: float = 0.5
+    hold_stop_s: float = 20.0
+    gnss_hold_s: float = 90.0
+    off_path_slow: float = 0.3
+    off_path_stop: float = 0.5
+    progress_s: float = 10.0
+    link_s: float = 5.0
+    arming_s: float = 5.0
+    start_distance: float = 3.0
+    battery_low_v: float = 23.5
+    battery_stop_v: float = 22.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class EventFacts:
+    """What the table looks at in one tick. Ages are None where nothing ever came."""
+
+    state: RunState
+    mode: NavMode
+    tick_s: float
+    chassis: ChassisState | None
+    chassis_age_s: float | None
+    system_age_s: float | None
+    pose_std: float | None
+    carried: float
+    gnss_age_s: float | None
+    gnss_trusted: bool
+    row_age_s: float | None
+    row_reason: str
+    lateral_error: float | None
+    stuck_s: float
+    held_s: float
+    arming_s: float
+    link_age_s: float
+    link_loss: LinkLossPolicy
+    zone: str
+    start_distance: float | None
+    waiting_for_gnss: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Event:
+    """One line of the table."""
+
+    name: str
+    effects: frozenset[Effect]
+    when: Callable[[EventFacts, EventParams], bool]
+    text: Callable[[EventFacts], str]
+
+
+def _old(age: float | None, limit: float) -> bool:
+    """True unless the age is known and within the limit: a NaN is old."""
+    return age is None or not (0.0 <= age <= limit)
+
+
+def _on_gnss(f: EventFacts) -> bool:
+    return f.mode is NavMode.GNSS_PATH
+
+
+def _moving(f: EventFacts) -> bool:
+    return f.state in (RunState.DRIVING, RunState.HOLDING)
+
+
+def _chassis(f: EventFacts, test: Callable[[ChassisState], bool]) -> bool:
+    return f.chassis is not None and test(f.chassis)
+
+
+def _fixed(text: str) -> Callable[[EventFacts], str]:
+    return lambda _: text
+
+
+def _event(
+    name: str, effects: str, when: Callable[[EventFacts, EventParams], bool], text: str | Callable[[EventFacts], str]
+) -> Event:
+    words = frozenset(Effect(word) for word in effects.split())
+    return Event(name, words, when, text if callable(text) else _fixed(text))
+
+
+def _drivers_failed(c: ChassisState) -> bool:
+    return any(state & 0b1111 for state in c.driver_faults)
+
+
+EVENTS: tuple[Event, ...] = (
+    _event(
+        "chassis_silent", "NO_ENTRY STOP",
+        lambda f, p: _old(f.chassis_age_s, p.chassis_s) or _old(f.system_age_s, p.system_s),
+        "The chassis does not report. Check its power and the CAN cable.",
+    ),
+    _event(
+        "emergency_stop", "NO_ENTRY STOP",
+        lambda f, _: _chassis(f, lambda c: c.state is VehicleState.EMERGENCY_STOP),
+        "The emergency stop is pressed. Release it, then acknowledge.",
+    ),
+    _event(
+        "chassis_fault", "NO_ENTRY STOP",
+        lambda f, _: _chassis(f, lambda c: c.state is VehicleState.EXCEPTION or _drivers_failed(c)),
+        lambda f: f"The chassis reports a fault (0x{f.chassis.faults:02x}). Look at the drives before going on."
+        if f.chassis else "",
+    ),
+    _event(
+        "remote_control", "NO_ENTRY STOP",
+        lambda f, _: _chassis(f, lambda c: c.mode is ControlMode.REMOTE),
+        "The remote control has taken over. Give control back on the remote, then start again.",
+    ),
+    _event(
+        "chassis_left_can", "STOP",
+        lambda f, _: _moving(f) and _chassis(f, lambda c: c.mode is not ControlMode.CAN),
+        "The chassis no longer obeys. Check it, then resume.",
+    ),
+    _event(
+        "guard_latched", "STOP",
+        lambda f, _: _moving(f) and _chassis(f, lambda c: c.guard is not GuardState.ARMED),
+        lambda f: f"The guard has stopped the robot: {f.chassis.guard_reason if f.chassis else 'it is silent'}.",
+    ),
+    _event(
+        "not_arming", "STOP",
+        lambda f, p: f.state is RunState.STARTING and f.arming_s > p.arming_s,
+        lambda f: f"The chassis did not accept control: {f.chassis.guard_reason if f.chassis else 'it is silent'}.",
+    ),
+    _event(
+        "battery_empty", "NO_ENTRY STOP",
+        lambda f, p: _chassis(f, lambda c: not c.voltage_v >= p.battery_stop_v),
+        "The battery is empty. Charge it.",
+    ),
+    _event(
+        "battery_low", "NO_ENTRY SLOW",
+        lambda f, p: _chassis(f, lambda c: not c.voltage_v >= p.battery_low_v),
+        "The battery is low. Bring the robot back and charge it.",
+    ),
+    _event(
+        "tick_late", "STOP",
+        lambda f, p: f.state in MOVING and not f.tick_s <= p.tick_stop_s,
+        lambda f: f"The computer was busy for {f.tick_s * 1e3:.0f} ms. Close other programs, then resume.",
+    ),
+    _event(
+        "no_position", "NO_ENTRY",
+        lambda f, _: f.pose_std is None,
+        "Position and heading are not known yet. Wait for the GNSS fix; the robot needs open sky.",
+    ),
+    _event(
+        "position_unsure", "NO_ENTRY",
+        lambda f, p: f.pose_std is not None and not f.pose_std <= p.pose_std,
+        lambda f: f"The position is only known to {f.pose_std or 0:.1f} m. Wait for an RTK fix.",
+    ),
+    _event(
+        "gnss_old", "SLOW",
+        lambda f, p: f.state in UNDER_WAY and _on_gnss(f) and _old(f.gnss_age_s, p.gnss_slow_s),
+        "GNSS has gone quiet. The robot drives slowly on odometry and will stop soon.",
+    ),
+    _event(
+        "gnss_lost", "STOP",
+        lambda f, p: f.state in MOVING and _on_gnss(f)
+        and (_old(f.gnss_age_s, p.gnss_stop_s) or f.pose_std is None or not f.pose_std <= p.pose_std),
+        "GNSS is lost. Check antenna and corrections, wait for the fix, then resume.",
+    ),
+    _event(
+        "waiting_for_gnss", "HOLD",
+        lambda f, _: f.waiting_for_gnss,
+        "The row is left and GNSS has no fix yet. The robot waits and goes on by itself.",
+    ),
+    _event(
+        "row_unseen", "HOLD",
+        lambda f, p: _moving(f) and f.mode in (NavMode.ROW_ENTRY, NavMode.ROW) and _old(f.row_age_s, p.row_hold_s),
+        lambda f: f"The camera sees no row: {f.row_reason or 'no picture'}. The robot waits and goes on by itself.",
+    ),
+    _event(
+        "carried_too_far", "HOLD",
+        lambda f, p: _moving(f) and f.mode in (NavMode.ROW_END, NavMode.HEADLAND) and not f.carried <= p.carried,
+        "The robot has driven on odometry for as long as it may, and waits for GNSS or a row.",
+    ),
+    _event(
+        "held_too_long", "STOP",
+        lambda f, p: f.state is RunState.HOLDING
+        and f.held_s > (p.gnss_hold_s if f.waiting_for_gnss else p.hold_stop_s),
+        "The robot has waited too long. Look at what it waits for, then resume.",
+    ),
+    _event(
+        "off_path", "SLOW",
+        lambda f, p: _moving(f) and f.lateral_error is not None and not abs(f.lateral_error) <= p.off_path_slow,
+        lambda f: f"The robot is {abs(f.lateral_error or 0) * 100:.0f} cm off its path and drives slowly.",
+    ),
+    _event(
+        "far_off_path", "STOP",
+        lambda f, p: _moving(f) and f.lateral_error is not None and not abs(f.lateral_error) <= p.off_path_stop,
+        lambda f: f"The robot is {abs(f.lateral_error or 0) * 100:.0f} cm off its path. Move it back, then resume.",
+    ),
+    _event(
+        "no_progress", "STOP",
+        lambda f, p: f.state is RunState.DRIVING and f.stuck_s > p.progress_s,
+        "The robot does not get on. Look what blocks it, then resume.",
+    ),
+    _event("zone", "STOP", lambda f, _: _moving(f) and bool(f.zone), lambda f: f.zone),
+    _event(
+        "link_lost", "STOP",
+        lambda f, p: f.state in MOVING and f.link_loss is LinkLossPolicy.STOP and not f.link_age_s <= p.link_s,
+        "No operator's page was heard of. Open the page, then resume.",
+    ),
+    _event(
+        "not_at_start", "NO_ENTRY",
+        lambda f, p: f.start_distance is not None and not f.start_distance <= p.start_distance,
+        lambda f: f"The robot is {f.start_distance or 0:.1f} m from the mission's start. Bring it there first.",
+    ),
+)  # fmt: skip
+
+
+def active_events(facts: EventFacts, params: EventParams) -> tuple[Event, ...]:
+    """All events that are on, in the order of the table."""
+    return tuple(event for event in EVENTS if event.when(facts, params))
+
+
+def effects_of(events: tuple[Event, ...]) -> frozenset[Effect]:
+    """All effects of some events."""
+    return frozenset(effect for event in events for effect in event.effects)

@@ -1,0 +1,131 @@
+"""How much each source is worth now: the newest observation, its age, and for how long it has agreed."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from navcore.geometry.angles import wrap
+from navcore.geometry.se2 import SE2
+from navcore.localization.path_anchor import RowLine
+from navcore.messages import FixQuality, GnssFix, RowObservation
+
+NS = 1e-9
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RowEvidenceParams:
+    """Parameters of `RowEvidence`.
+
+    Attributes:
+        gate: largest disagreement with the expected row, as a share of the corridor width, in (0, 0.5): beyond half a
+            width the neighbouring row would be the nearer one.
+        heading_gate: largest disagreement of the direction, rad.
+        min_quality: 0 to 1.
+    """
+
+    gate: float = 0.42
+    heading_gate: float = 0.35
+    min_quality: float = 0.15
+
+
+class RowEvidence:
+    """The row that is meant, as the camera sees it."""
+
+    def __init__(self, params: RowEvidenceParams) -> None:
+        self.params = params
+        self.forget()
+
+    def forget(self) -> None:
+        """Another row, or another camera."""
+        self.newest: RowObservation | None = None
+        self.agreeing: RowObservation | None = None
+        self.streak = 0
+
+    def judge(self, seen: RowObservation, row: RowLine, T_map_drive: SE2, width: float) -> bool:
+        """Take one observation; True if it is valid and of the row that is meant.
+
+        `T_map_drive` is the expected pose of the driving frame at the time of capture.
+        """
+        self.newest = seen
+        agrees = self._agrees(seen, row.coordinates(T_map_drive), width)
+        self.streak = self.streak + 1 if agrees else 0
+        if agrees:
+            self.agreeing = seen
+        return agrees
+
+    def _agrees(self, seen: RowObservation, expected: SE2, width: float) -> bool:
+        if not seen.valid or seen.offset is None or seen.heading is None:
+            return False
+        near = abs(-seen.offset - expected.y) <= self.params.gate * width
+        parallel = abs(wrap(-seen.heading - expected.yaw)) <= self.params.heading_gate
+        return near and parallel and seen.quality >= self.params.min_quality
+
+    def age_s(self, now_ns: int) -> float | None:
+        """Age of the newest agreeing observation."""
+        return None if self.agreeing is None else (now_ns - self.agreeing.stamp_ns) * NS
+
+    @property
+    def reason(self) -> str:
+        """Why there is no row, in the row worker's words."""
+        if self.newest is None:
+            return "no picture"
+        return self.newest.reason or "what it sees is not the row that is meant"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class GnssEvidenceParams:
+    """Parameters of `GnssEvidence`.
+
+    Attributes:
+        qualities: what counts as a good epoch.
+    """
+
+    qualities: tuple[FixQuality, ...] = (FixQuality.RTK_FIXED,)
+
+
+class GnssEvidence:
+    """The receiver's epochs: the newest with a position, and how many good ones came in a row."""
+
+    def __init__(self, params: GnssEvidenceParams) -> None:
+        self.params = params
+        self.newest: GnssFix | None = None
+        self.streak = 0
+
+    def add(self, fix: GnssFix) -> None:
+        """Take one epoch."""
+        if fix.quality is FixQuality.NONE or fix.lat_deg is None:
+            self.streak = 0
+            return
+        self.newest = fix
+        self.streak = self.streak + 1 if fix.quality in self.params.qualities else 0
+
+    def age_s(self, now_ns: int) -> float | None:
+        """Age of the newest epoch with a position."""
+        return None if self.newest is None else (now_ns - self.newest.stamp_ns) * NS
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ProgressParams:
+    """Hazard 49: `distance` m of the route must be driven within `progress_s` of the event table."""
+
+    distance: float = 0.5
+
+
+class Progress:
+    """For how long the robot has not got on."""
+
+    def __init__(self, params: ProgressParams) -> None:
+        self.params = params
+        self._reached = -math.inf
+        self._since_ns = 0
+
+    def restart(self, now_ns: int) -> None:
+        """Begin to count anew, after a rest."""
+        self._reached, self._since_ns = -math.inf, now_ns
+
+    def update(self, now_ns: int, driven: float) -> float:
+        """Seconds since the route got on by another stretch; `driven` metres of it are behind the robot."""
+        if driven >= self._reached + self.params.distance:
+            self._reached, self._since_ns = driven, now_ns
+        return (now_ns - self._since_ns) * NS

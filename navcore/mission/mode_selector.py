@@ -1,0 +1,168 @@
+"""Which source to drive on: a pure function of what is known now and of the mode before.
+
+The table below is the whole policy. Each switch carries the sentence that caused it; its numbers are logged with it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from navcore.messages import NavMode, SegmentKind
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ModeSelectorParams:
+    """Parameters of `select_mode`.
+
+    Attributes:
+        streak: agreeing row observations in a row before the camera is trusted, >= 1.
+        lost_s: without one for this long before the entrance, the camera is not trusted any more, s.
+        end_zone: distance to the row's end at which the robot drives on by odometry, m.
+        again: a row seen to go on for more than this takes the robot back into it, m (hysteresis to `end_zone`).
+        clear: distance past the row's end at which GNSS may take over, m.
+        gnss_std: position 1-sigma at which GNSS may take over, m.
+        gnss_streak: good epochs in a row before it does.
+    """
+
+    streak: int = 3
+    lost_s: float = 1.0
+    end_zone: float = 1.5
+    again: float = 5.0
+    clear: float = 1.0
+    gnss_std: float = 0.12
+    gnss_streak: int = 5
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ModeFacts:
+    """What the selector looks at.
+
+    Attributes:
+        segment: kind of the planned segment here.
+        to_start, to_end: metres ahead at which the row here begins and ends; None away from rows.
+        row_streak: consecutive observations that are valid and agree with the expected row.
+        row_age_s: age of the last such observation, None if there was none.
+        seen_end: distance ahead at which the camera sees the row end, None if it goes on.
+        gnss_std: 1-sigma of the pose filter's position, m, None without a pose.
+        gnss_streak: consecutive good epochs.
+    """
+
+    segment: SegmentKind
+    to_start: float | None
+    to_end: float | None
+    row_streak: int
+    row_age_s: float | None
+    seen_end: float | None
+    gnss_std: float | None
+    gnss_streak: int
+
+
+@dataclass(frozen=True, slots=True)
+class Switch:
+    """One line of the table: from one of `before` to `after` when `when` holds."""
+
+    before: frozenset[NavMode]
+    after: NavMode
+    when: Callable[[ModeFacts, ModeSelectorParams], bool]
+    reason: Callable[[ModeFacts], str]
+
+
+def _row_trusted(f: ModeFacts, p: ModeSelectorParams) -> bool:
+    return f.row_streak >= p.streak
+
+
+def _near_row(f: ModeFacts) -> bool:
+    return f.segment in (SegmentKind.ENTRY, SegmentKind.ROW) and f.to_end is not None and f.to_end > 0.0
+
+
+def _inside(f: ModeFacts) -> bool:
+    return f.to_start is not None and f.to_start <= 0.0 and _near_row(f)
+
+
+def _lost(f: ModeFacts, p: ModeSelectorParams) -> bool:
+    return f.row_age_s is None or f.row_age_s > p.lost_s
+
+
+def _at_end(f: ModeFacts, p: ModeSelectorParams) -> bool:
+    by_path = f.segment in (SegmentKind.EXIT, SegmentKind.HEADLAND, SegmentKind.ROAD)
+    return by_path or (f.to_end is not None and f.to_end < p.end_zone)
+
+
+def _row_goes_on(f: ModeFacts, p: ModeSelectorParams) -> bool:
+    inside = f.segment is SegmentKind.ROW and f.to_end is not None and f.to_end > p.end_zone
+    return inside and _row_trusted(f, p) and (f.seen_end is None or f.seen_end > p.again)
+
+
+def _gnss_trusted(f: ModeFacts, p: ModeSelectorParams) -> bool:
+    good = f.gnss_std is not None and f.gnss_std <= p.gnss_std and f.gnss_streak >= p.gnss_streak
+    return good and (f.to_end is None or f.to_end <= -p.clear)
+
+
+def _metres(value: float | None) -> str:
+    return "unknown" if value is None else f"{value:.2f} m"
+
+
+SWITCHES: tuple[Switch, ...] = (
+    Switch(
+        frozenset({NavMode.GNSS_PATH, NavMode.HEADLAND}),
+        NavMode.ROW,
+        lambda f, p: _inside(f) and _row_trusted(f, p),
+        lambda f: f"row seen in {f.row_streak} pictures, {_metres(f.to_end)} to its end",
+    ),
+    Switch(
+        frozenset({NavMode.GNSS_PATH, NavMode.HEADLAND}),
+        NavMode.ROW_ENTRY,
+        lambda f, p: _near_row(f) and _row_trusted(f, p),
+        lambda f: f"row ahead seen in {f.row_streak} pictures, entrance in {_metres(f.to_start)}",
+    ),
+    Switch(
+        frozenset({NavMode.ROW_ENTRY}),
+        NavMode.ROW,
+        lambda f, p: _inside(f) and _row_trusted(f, p),
+        lambda f: f"entrance passed, row seen in {f.row_streak} pictures",
+    ),
+    Switch(
+        frozenset({NavMode.ROW_ENTRY}),
+        NavMode.GNSS_PATH,
+        lambda f, p: not _inside(f) and _lost(f, p) and _gnss_trusted(f, p),
+        lambda f: f"row not seen any more, entrance in {_metres(f.to_start)}",
+    ),
+    Switch(
+        frozenset({NavMode.ROW, NavMode.ROW_ENTRY}),
+        NavMode.ROW_END,
+        lambda f, p: _at_end(f, p),
+        lambda f: f"end of the row in {_metres(f.to_end)}",
+    ),
+    Switch(
+        frozenset({NavMode.ROW_END}),
+        NavMode.ROW,
+        lambda f, p: _row_goes_on(f, p),
+        lambda f: f"the row goes on, {_metres(f.to_end)} to its end",
+    ),
+    Switch(
+        frozenset({NavMode.ROW_END}),
+        NavMode.HEADLAND,
+        lambda f, _: f.segment is SegmentKind.HEADLAND,
+        lambda f: f"row left, turning over the headland, position known to {_metres(f.gnss_std)}",
+    ),
+    Switch(
+        frozenset({NavMode.ROW_END, NavMode.HEADLAND}),
+        NavMode.GNSS_PATH,
+        lambda f, p: f.segment in (SegmentKind.EXIT, SegmentKind.ROAD) and _gnss_trusted(f, p),
+        lambda f: f"row left, GNSS position known to {_metres(f.gnss_std)}",
+    ),
+)
+
+
+def select_mode(before: NavMode, facts: ModeFacts, params: ModeSelectorParams) -> tuple[NavMode, str | None]:
+    """The mode for now, and why it changed (None if it did not)."""
+    for switch in SWITCHES:
+        if before in switch.before and switch.when(facts, params):
+            return switch.after, switch.reason(facts)
+    return before, None
+
+
+def first_mode(facts: ModeFacts) -> tuple[NavMode, str]:
+    """Where a mission starts: on GNSS."""
+    return NavMode.GNSS_PATH, f"mission started, position known to {_metres(facts.gnss_std)}"
