@@ -7,6 +7,7 @@
     │   ├── MissionError            a mission cannot be driven; carries every reason at once
     │   ├── OrthophotoError         a picture that cannot become the site's ground
     │   ├── LogError                a run log or sensor log that cannot be read
+    │   ├── SentenceError           a receiver's sentence that is no evidence; counted by its reader
     │   ├── ModelError              a detector file that cannot be used
     │   └── ConfigError             unknown key, value out of bounds
     ├── TransportError          a process of the station does not answer
@@ -54,6 +55,10 @@ class OrthophotoError(InputError):
 
 class LogError(InputError):
     """A log that cannot be read."""
+
+
+class SentenceError(InputError):
+    """A receiver's sentence is no evidence; the text says why."""
 
 
 class ModelError(InputError):
