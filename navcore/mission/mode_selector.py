@@ -94,9 +94,13 @@ def _row_goes_on(f: ModeFacts, p: ModeSelectorParams) -> bool:
     return inside and _row_trusted(f, p) and (f.seen_end is None or f.seen_end > p.again)
 
 
-def _gnss_trusted(f: ModeFacts, p: ModeSelectorParams) -> bool:
-    good = f.gnss_std is not None and f.gnss_std <= p.gnss_std and f.gnss_streak >= p.gnss_streak
-    return good and (f.to_end is None or f.to_end <= -p.clear)
+def _gnss_good(f: ModeFacts, p: ModeSelectorParams) -> bool:
+    return f.gnss_std is not None and f.gnss_std <= p.gnss_std and f.gnss_streak >= p.gnss_streak
+
+
+def _clear(f: ModeFacts, p: ModeSelectorParams) -> bool:
+    left = f.to_end is None or f.to_end <= -p.clear
+    return left and f.segment in (SegmentKind.EXIT, SegmentKind.ROAD)
 
 
 def _metres(value: float | None) -> str:
@@ -125,7 +129,7 @@ SWITCHES: tuple[Switch, ...] = (
     Switch(
         frozenset({NavMode.ROW_ENTRY}),
         NavMode.GNSS_PATH,
-        lambda f, p: not _inside(f) and _lost(f, p) and _gnss_trusted(f, p),
+        lambda f, p: not _inside(f) and _lost(f, p) and _gnss_good(f, p),
         lambda f: f"row not seen any more, entrance in {_metres(f.to_start)}",
     ),
     Switch(
@@ -149,7 +153,7 @@ SWITCHES: tuple[Switch, ...] = (
     Switch(
         frozenset({NavMode.ROW_END, NavMode.HEADLAND}),
         NavMode.GNSS_PATH,
-        lambda f, p: f.segment in (SegmentKind.EXIT, SegmentKind.ROAD) and _gnss_trusted(f, p),
+        lambda f, p: _clear(f, p) and _gnss_good(f, p),
         lambda f: f"row left, GNSS position known to {_metres(f.gnss_std)}",
     ),
 )

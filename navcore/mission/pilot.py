@@ -1,0 +1,243 @@
+"""Drives one plan: where on the route the robot is, on which source, and so which line is ahead."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+from navcore.geometry.angles import wrap
+from navcore.geometry.polyline import Projection
+from navcore.geometry.se2 import SE2
+from navcore.localization.path_anchor import HALF_TURN, PathAnchor, PathAnchorParams, RowLine
+from navcore.messages import (
+    CameraName,
+    CameraRequest,
+    MissionPlan,
+    ModeSwitch,
+    NavMode,
+    PathSegment,
+    RowObservation,
+    SegmentKind,
+)
+from navcore.mission.evidence import RowEvidence, RowEvidenceParams
+from navcore.mission.mode_selector import ModeFacts, ModeSelectorParams, first_mode, select_mode
+from navcore.mission.route import Leg, Place, Route
+
+ON_CAMERA = frozenset({NavMode.ROW_ENTRY, NavMode.ROW})
+CARRIED = frozenset({NavMode.ROW_END, NavMode.HEADLAND})
+ROW_SEGMENTS = frozenset({SegmentKind.ENTRY, SegmentKind.ROW, SegmentKind.EXIT})
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PilotParams:
+    """Parameters of `Pilot`.
+
+    Attributes:
+        arrival: a leg counts as driven this close to its end, m.
+        search: half width of the search for the place on the path, m.
+        look_out: the camera is used from this far before a row's entry segment, m.
+        end_std: 1-sigma of the row end's distance as the camera sees it, m.
+    """
+
+    arrival: float = 0.12
+    search: float = 3.0
+    look_out: float = 4.0
+    end_std: float = 0.4
+    anchor: PathAnchorParams = field(default_factory=PathAnchorParams)
+    row: RowEvidenceParams = field(default_factory=RowEvidenceParams)
+    mode: ModeSelectorParams = field(default_factory=ModeSelectorParams)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Position:
+    """What the pilot is told of the robot in each tick.
+
+    Attributes:
+        T_odom_base: smooth dead-reckoned pose.
+        T_map_base: the pose filter's, None without one.
+        gnss_std, gnss_streak: see `ModeFacts`.
+        standing: the robot does not move.
+    """
+
+    now_ns: int
+    T_odom_base: SE2
+    T_map_base: SE2 | None
+    gnss_std: float | None
+    gnss_streak: int
+    standing: bool
+
+
+class Pilot:
+    """Follows one plan from its first leg to its last."""
+
+    def __init__(self, plan: MissionPlan, start: Position, T_map_base: SE2, params: PilotParams) -> None:
+        self.params = params
+        self.route = Route(plan)
+        self.anchor = PathAnchor(T_map_base @ start.T_odom_base.inverse(), params.anchor)
+        self.row = RowEvidence(params.row)
+        self.carried = 0.0
+        self.arrived = False
+        self._at = start
+        self.place = Place(0, 0.0)
+        self.pose = self._drive(T_map_base)
+        self.projection = self._project(near_s=None)
+        self.mode, self.mode_reason = first_mode(self._facts(start))
+
+    @property
+    def leg(self) -> Leg:
+        """The leg that is driven."""
+        return self.route.legs[self.place.leg]
+
+    @property
+    def segment(self) -> PathSegment:
+        """The planned segment here."""
+        return self.leg.segment(self.place.s)
+
+    @property
+    def remaining(self) -> float:
+        """Metres to the end of the leg, by the path."""
+        return self.leg.length - self.place.s
+
+    def advance(self, at: Position, row_seen: tuple[tuple[RowObservation, SE2], ...], dt: float) -> ModeSwitch | None:
+        """Take one tick; the mode switch it brought, if any.
+
+        Each row observation comes with `T_odom_base` at its capture.
+        """
+        self._carry(at)
+        for seen, T_odom_base in row_seen:
+            self._see(seen, self._drive(T_odom_base))
+        if self.mode is NavMode.GNSS_PATH and at.T_map_base is not None:
+            self.anchor.follow(at.T_map_base @ at.T_odom_base.inverse())
+        self.pose = self.anchor.slide(self._drive(at.T_odom_base), dt)
+        self.projection = self._project(self.place.s)
+        self.place = Place(self.place.leg, self.projection.s)
+        self._finish_leg(at)
+        return self._choose_mode(at)
+
+    def _drive(self, T_x_base: SE2) -> SE2:
+        """Pose of the driving frame: turned by pi on a leg that is driven backwards."""
+        return T_x_base @ HALF_TURN if self.leg.reverse else T_x_base
+
+    def _carry(self, at: Position) -> None:
+        moved = self._at.T_odom_base.inverse() @ at.T_odom_base
+        distance = math.hypot(moved.x, moved.y)
+        self.anchor.drive(distance)
+        self.carried = self.carried + distance if self.mode in CARRIED else 0.0
+        self._at = at
+
+    def _see(self, seen: RowObservation, T_odom_drive: SE2) -> None:
+        """Judge what the camera saw by the row that is meant, and correct the anchor while driving on it."""
+        row, segment = self.row_line(), self._row_segment()
+        if row is None or segment is None or seen.camera is not self._camera():
+            return
+        expected = self.anchor.T_map_odom @ T_odom_drive
+        if not self.row.judge(seen, row, expected, segment.corridor_width or 3.0) or self.mode not in ON_CAMERA:
+            return
+        if seen.offset is not None and seen.heading is not None:
+            stds = seen.offset_std or 0.05, seen.heading_std or 0.02
+            self.anchor.see_row(row, T_odom_drive, seen.offset, seen.heading, *stds)
+        if self.mode is NavMode.ROW and seen.end_distance is not None:
+            along = self._row_length(segment) - seen.end_distance
+            self.anchor.see_along(row, T_odom_drive, along, self.params.end_std)
+
+    def _project(self, near_s: float | None) -> Projection:
+        return self.leg.line.project(self.pose.x, self.pose.y, near_s, self.params.search)
+
+    def _finish_leg(self, at: Position) -> None:
+        """Go on to the next leg once the robot stands at the end of this one."""
+        if self.remaining > self.params.arrival or not at.standing:
+            return
+        if self.route.at_end(self.place):
+            self.arrived = True
+            return
+        self.place = Place(self.place.leg + 1, 0.0)
+        self.pose = self.anchor.followed @ self._drive(at.T_odom_base)
+        self.projection = self._project(near_s=0.0)
+        self.row.forget()
+
+    def _choose_mode(self, at: Position) -> ModeSwitch | None:
+        before, facts = self.mode, self._facts(at)
+        self.mode, reason = select_mode(before, facts, self.params.mode)
+        if reason is None:
+            return None
+        self.mode_reason = reason
+        self._on_switch(before)
+        seen = self.row.agreeing
+        return ModeSwitch(
+            stamp_ns=at.now_ns,
+            before=before,
+            after=self.mode,
+            reason=reason,
+            x=self.pose.x,
+            y=self.pose.y,
+            along_segment=self.place.s,
+            gnss_std=at.gnss_std,
+            row_quality=seen.quality if seen else None,
+            row_offset=seen.offset if seen else None,
+            end_distance=facts.to_end,
+        )
+
+    def _on_switch(self, before: NavMode) -> None:
+        if self.mode in ON_CAMERA and before not in ON_CAMERA:
+            self.anchor.unsure()
+        if self.mode is NavMode.HEADLAND:
+            self.row.forget()
+
+    def _row_segment(self) -> PathSegment | None:
+        """The segment whose row matters here: this one's, or the next entry's when it is near."""
+        here = self.segment
+        if here.kind in ROW_SEGMENTS and here.row_start is not None:
+            return here
+        ahead = self.leg.next_of(self.place.s, frozenset({SegmentKind.ENTRY}))
+        near = ahead is not None and ahead[1] - self.place.s <= self.params.look_out
+        return ahead[0] if ahead is not None and near and ahead[0].row_start is not None else None
+
+    def row_line(self) -> RowLine | None:
+        """Centre line of the row that matters here, as drawn."""
+        segment = self._row_segment()
+        if segment is None or segment.row_start is None or segment.row_end is None:
+            return None
+        (x0, y0), (x1, y1) = segment.row_start, segment.row_end
+        return RowLine(x0, y0, math.atan2(y1 - y0, x1 - x0))
+
+    @staticmethod
+    def _row_length(segment: PathSegment) -> float:
+        return math.dist(segment.row_start or (0.0, 0.0), segment.row_end or (0.0, 0.0))
+
+    def _facts(self, at: Position) -> ModeFacts:
+        row, segment = self.row_line(), self._row_segment()
+        along = row.coordinates(self.pose).x if row else None
+        seen = self.row.agreeing
+        return ModeFacts(
+            segment=self.segment.kind,
+            to_start=-along if along is not None else None,
+            to_end=self._row_length(segment) - along if segment is not None and along is not None else None,
+            row_streak=self.row.streak,
+            row_age_s=self.row.age_s(at.now_ns),
+            seen_end=seen.end_distance if seen else None,
+            gnss_std=at.gnss_std,
+            gnss_streak=at.gnss_streak,
+        )
+
+    def _camera(self) -> CameraName:
+        return CameraName.REAR if self.leg.reverse else CameraName.FRONT
+
+    def camera_request(self, at: Position) -> CameraRequest | None:
+        """What the row worker should look at; None where no row matters."""
+        row, segment = self.row_line(), self._row_segment()
+        if row is None or segment is None:
+            return None
+        seen_from = row.coordinates(self.anchor.T_map_odom @ self._drive(at.T_odom_base))
+        return CameraRequest(
+            stamp_ns=at.now_ns,
+            camera=self._camera(),
+            odom_x=at.T_odom_base.x,
+            odom_y=at.T_odom_base.y,
+            odom_yaw=at.T_odom_base.yaw,
+            offset=-seen_from.y,
+            heading=wrap(-seen_from.yaw),
+            offset_std=math.sqrt(self.anchor.var_lateral),
+            width=segment.corridor_width,
+            to_start=-seen_from.x,
+            to_end=self._row_length(segment) - seen_from.x,
+        )

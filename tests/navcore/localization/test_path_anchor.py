@@ -1,0 +1,67 @@
+"""The path's tie to odometry: rows win over the map, and nothing jumps."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from navcore.geometry.se2 import SE2
+from navcore.localization.path_anchor import PathAnchor, PathAnchorParams, RowLine
+
+ROW = RowLine(10.0, 5.0, 0.3)
+
+
+def anchored() -> PathAnchor:
+    return PathAnchor(SE2(2.0, 1.0, 0.1), PathAnchorParams())
+
+
+def test_row_coordinates_round_trip() -> None:
+    pose = SE2(3.0, -2.0, 1.2)
+    back = ROW.pose(ROW.coordinates(pose))
+    assert (back.x, back.y, back.yaw) == pytest.approx((3.0, -2.0, 1.2), abs=1e-12)
+
+
+def test_seen_row_places_the_robot_beside_the_drawn_one() -> None:
+    anchor, odom = anchored(), SE2(8.0, 3.0, 0.25)
+    for _ in range(50):
+        anchor.see_row(ROW, odom, offset=0.4, heading=-0.05, offset_std=0.03, heading_std=0.01)
+    at = ROW.coordinates(anchor.T_map_odom @ odom)
+    assert at.y == pytest.approx(-0.4, abs=0.02)
+    assert at.yaw == pytest.approx(0.05, abs=0.005)
+
+
+def test_seeing_a_row_does_not_move_the_robot_along_it() -> None:
+    anchor, odom = anchored(), SE2(8.0, 3.0, 0.25)
+    before = ROW.coordinates(anchor.T_map_odom @ odom).x
+    anchor.see_row(ROW, odom, offset=0.4, heading=-0.05, offset_std=0.03, heading_std=0.01)
+    assert ROW.coordinates(anchor.T_map_odom @ odom).x == pytest.approx(before, abs=1e-9)
+
+
+def test_row_end_corrects_the_place_along_the_row() -> None:
+    anchor, odom = anchored(), SE2(8.0, 3.0, 0.25)
+    for _ in range(50):
+        anchor.see_along(ROW, odom, along=4.0, std=0.4)
+    assert ROW.coordinates(anchor.T_map_odom @ odom).x == pytest.approx(4.0, abs=0.1)
+
+
+@given(st.floats(-2, 2), st.floats(-2, 2), st.floats(-1, 1), st.floats(0.005, 0.1))
+def test_followed_pose_never_jumps(dx: float, dy: float, turn: float, dt: float) -> None:
+    anchor, odom = anchored(), SE2(8.0, 3.0, 0.25)
+    before = anchor.followed @ odom
+    anchor.follow(SE2(2.0 + dx, 1.0 + dy, 0.1 + turn))
+    after = anchor.slide(odom, dt)
+    params = anchor.params
+    assert math.dist((before.x, before.y), (after.x, after.y)) <= params.slide * dt + 1e-9
+    assert abs(after.yaw - before.yaw) <= params.turn * dt + 1e-9
+
+
+def test_followed_pose_arrives() -> None:
+    anchor, odom = anchored(), SE2(8.0, 3.0, 0.25)
+    anchor.follow(SE2(2.5, 1.0, 0.15))
+    for _ in range(500):
+        pose = anchor.slide(odom, 0.02)
+    wanted = anchor.T_map_odom @ odom
+    assert (pose.x, pose.y, pose.yaw) == pytest.approx((wanted.x, wanted.y, wanted.yaw), abs=1e-6)

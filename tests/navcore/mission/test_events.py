@@ -1,0 +1,92 @@
+"""The event table: each fault is noticed, speaks, and nothing is on when all is well."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import Any
+
+import pytest
+
+from navcore.chassis.protocol import ChassisState, ControlMode, GuardState, VehicleState
+from navcore.messages import LinkLossPolicy, NavMode, RunState
+from navcore.mission.events import EVENTS, EventFacts, EventParams, active_events, effects_of
+from navcore.mission.state_machine import Effect
+
+PARAMS = EventParams()
+CHASSIS = ChassisState(
+    stamp_ns=0, system_stamp_ns=0, v=0.5, omega=0.0, left_mm=0, right_mm=0, state=VehicleState.NORMAL,
+    mode=ControlMode.CAN, voltage_v=26.0, faults=0, driver_faults=(0, 0, 0, 0), guard=GuardState.ARMED,
+    guard_reason="", accepted_seq=1,
+)  # fmt: skip
+WELL = EventFacts(
+    state=RunState.DRIVING, mode=NavMode.GNSS_PATH, tick_s=0.02, chassis=CHASSIS, chassis_age_s=0.02,
+    system_age_s=0.05, pose_std=0.02, carried=0.0, gnss_age_s=0.2, gnss_trusted=True, row_age_s=None, row_reason="",
+    lateral_error=0.02, stuck_s=0.0, held_s=0.0, arming_s=0.0, link_age_s=0.5, link_loss=LinkLossPolicy.STOP, zone="",
+    start_distance=0.1, waiting_for_gnss=False,
+)  # fmt: skip
+FAULTS: dict[str, dict[str, Any]] = {
+    "chassis_silent": {"chassis_age_s": 0.25},
+    "emergency_stop": {"chassis": replace(CHASSIS, state=VehicleState.EMERGENCY_STOP)},
+    "chassis_fault": {"chassis": replace(CHASSIS, driver_faults=(0, 4, 0, 0))},
+    "remote_control": {"chassis": replace(CHASSIS, mode=ControlMode.REMOTE)},
+    "chassis_left_can": {"chassis": replace(CHASSIS, mode=ControlMode.STANDBY)},
+    "guard_latched": {"chassis": replace(CHASSIS, guard=GuardState.LATCHED, guard_reason="silence")},
+    "not_arming": {"state": RunState.STARTING, "arming_s": 6.0},
+    "battery_empty": {"chassis": replace(CHASSIS, voltage_v=21.5)},
+    "battery_low": {"chassis": replace(CHASSIS, voltage_v=23.0)},
+    "tick_late": {"tick_s": 0.25},
+    "no_position": {"pose_std": None},
+    "position_unsure": {"pose_std": 1.0},
+    "gnss_old": {"gnss_age_s": 1.5},
+    "gnss_lost": {"gnss_age_s": 3.5},
+    "waiting_for_gnss": {"waiting_for_gnss": True},
+    "row_unseen": {"mode": NavMode.ROW, "row_age_s": 0.6},
+    "carried_too_far": {"mode": NavMode.HEADLAND, "carried": 31.0},
+    "held_too_long": {"state": RunState.HOLDING, "held_s": 21.0},
+    "off_path": {"lateral_error": -0.35},
+    "far_off_path": {"lateral_error": 0.6},
+    "no_progress": {"stuck_s": 11.0},
+    "zone": {"zone": "A keep-out zone is ahead."},
+    "link_lost": {"link_age_s": 6.0},
+    "not_at_start": {"start_distance": 12.0},
+}
+
+
+def names(facts: EventFacts) -> set[str]:
+    return {event.name for event in active_events(facts, PARAMS)}
+
+
+def test_nothing_is_on_when_all_is_well() -> None:
+    assert names(WELL) == set()
+
+
+def test_every_event_of_the_table_has_its_fault_here() -> None:
+    assert {event.name for event in EVENTS} == set(FAULTS)
+
+
+@pytest.mark.parametrize("name", FAULTS)
+def test_each_fault_is_noticed_and_says_what_to_do(name: str) -> None:
+    facts = replace(WELL, **FAULTS[name])
+    event = next(e for e in EVENTS if e.name == name)
+    assert name in names(facts)
+    assert event.text(facts).endswith(".")
+    assert event.effects
+
+
+@pytest.mark.parametrize(
+    "field", ["lateral_error", "pose_std", "tick_s", "chassis_age_s", "gnss_age_s", "link_age_s"]
+)
+def test_a_nan_is_never_well(field: str) -> None:
+    change: dict[str, Any] = {field: math.nan}
+    facts = replace(WELL, **change)
+    assert effects_of(active_events(facts, PARAMS)) & {Effect.STOP, Effect.NO_ENTRY}
+
+
+def test_a_stamp_from_the_future_is_old() -> None:
+    assert "gnss_lost" in names(replace(WELL, gnss_age_s=-0.5))
+
+
+def test_gnss_may_be_silent_while_the_camera_is_driven_on() -> None:
+    in_row = replace(WELL, mode=NavMode.ROW, row_age_s=0.1, gnss_age_s=30.0, pose_std=5.0)
+    assert Effect.STOP not in effects_of(active_events(in_row, PARAMS))

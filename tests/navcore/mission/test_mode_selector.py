@@ -1,0 +1,80 @@
+"""The switches between GNSS and camera: each happens when it should, and none twice in a row."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import product
+
+from navcore.messages import NavMode, SegmentKind
+from navcore.mission.mode_selector import ModeFacts, ModeSelectorParams, select_mode
+
+PARAMS = ModeSelectorParams()
+OPEN_ROAD = ModeFacts(
+    segment=SegmentKind.ROAD, to_start=None, to_end=None, row_streak=0, row_age_s=None, seen_end=None,
+    gnss_std=0.02, gnss_streak=100,
+)  # fmt: skip
+BEFORE_ROW = replace(OPEN_ROAD, segment=SegmentKind.ENTRY, to_start=3.0, to_end=63.0, row_streak=3, row_age_s=0.1)
+IN_ROW = replace(BEFORE_ROW, segment=SegmentKind.ROW, to_start=-30.0, to_end=30.0, gnss_std=1.5, gnss_streak=0)
+AT_END = replace(IN_ROW, to_end=1.0, seen_end=1.0)
+LEFT_ROW = replace(AT_END, segment=SegmentKind.EXIT, to_end=-2.0, row_streak=0, gnss_std=0.02, gnss_streak=10)
+
+
+def mode_after(before: NavMode, facts: ModeFacts) -> NavMode:
+    return select_mode(before, facts, PARAMS)[0]
+
+
+def test_camera_takes_over_before_the_entrance_once_the_row_is_seen_repeatedly() -> None:
+    assert mode_after(NavMode.GNSS_PATH, BEFORE_ROW) is NavMode.ROW_ENTRY
+    assert mode_after(NavMode.GNSS_PATH, replace(BEFORE_ROW, row_streak=2)) is NavMode.GNSS_PATH
+
+
+def test_no_row_is_entered_from_the_road() -> None:
+    assert mode_after(NavMode.GNSS_PATH, replace(OPEN_ROAD, row_streak=50)) is NavMode.GNSS_PATH
+
+
+def test_entry_becomes_row_inside() -> None:
+    assert mode_after(NavMode.ROW_ENTRY, BEFORE_ROW) is NavMode.ROW_ENTRY
+    assert mode_after(NavMode.ROW_ENTRY, replace(BEFORE_ROW, to_start=-0.1)) is NavMode.ROW
+
+
+def test_row_lost_before_the_entrance_goes_back_to_gnss() -> None:
+    lost = replace(BEFORE_ROW, row_streak=0, row_age_s=1.5)
+    assert mode_after(NavMode.ROW_ENTRY, lost) is NavMode.GNSS_PATH
+
+
+def test_gnss_never_takes_over_inside_a_row() -> None:
+    good_gnss = replace(IN_ROW, gnss_std=0.01, gnss_streak=1000, row_streak=0, row_age_s=9.0)
+    assert mode_after(NavMode.ROW, good_gnss) is NavMode.ROW
+
+
+def test_row_end_is_driven_on_odometry_until_gnss_is_good() -> None:
+    assert mode_after(NavMode.ROW, AT_END) is NavMode.ROW_END
+    assert mode_after(NavMode.ROW_END, replace(LEFT_ROW, gnss_std=0.8)) is NavMode.ROW_END
+    assert mode_after(NavMode.ROW_END, replace(LEFT_ROW, gnss_streak=2)) is NavMode.ROW_END
+    assert mode_after(NavMode.ROW_END, LEFT_ROW) is NavMode.GNSS_PATH
+
+
+def test_headland_is_turned_without_gnss_and_leads_into_the_next_row() -> None:
+    turning = replace(LEFT_ROW, segment=SegmentKind.HEADLAND, gnss_std=1.5, gnss_streak=0)
+    assert mode_after(NavMode.ROW_END, turning) is NavMode.HEADLAND
+    assert mode_after(NavMode.HEADLAND, turning) is NavMode.HEADLAND
+    assert mode_after(NavMode.HEADLAND, replace(BEFORE_ROW, gnss_std=1.5)) is NavMode.ROW_ENTRY
+
+
+def test_reversing_out_begins_on_the_rear_camera() -> None:
+    back = replace(IN_ROW, to_start=-0.5, to_end=59.5)
+    assert mode_after(NavMode.ROW_END, back) is NavMode.ROW
+
+
+def test_every_switch_says_why() -> None:
+    for before, facts in product(NavMode, (OPEN_ROAD, BEFORE_ROW, IN_ROW, AT_END, LEFT_ROW)):
+        after, reason = select_mode(before, facts, PARAMS)
+        assert (reason is not None) == (after is not before)
+
+
+def test_the_same_facts_never_switch_back_and_forth() -> None:
+    for before, facts in product(NavMode, (OPEN_ROAD, BEFORE_ROW, IN_ROW, AT_END, LEFT_ROW)):
+        modes = [before]
+        for _ in range(4):
+            modes.append(mode_after(modes[-1], facts))
+        assert modes[-1] is modes[-2]
