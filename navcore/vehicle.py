@@ -19,6 +19,7 @@ class VehicleParams:
         max_acceleration: m/s^2, also used for braking.
         max_angular_acceleration: rad/s^2.
         turn_track_ratio: effective track / track when turning (skid steering turns less than its wheels say).
+        antenna_x, antenna_y, antenna_height: main GNSS antenna in `base_link`, m.
     """
 
     name: str
@@ -35,6 +36,9 @@ class VehicleParams:
     max_acceleration: float
     max_angular_acceleration: float
     turn_track_ratio: float
+    antenna_x: float = 0.0
+    antenna_y: float = 0.0
+    antenna_height: float = 1.2
 
 
 PAPER_A = VehicleParams(
