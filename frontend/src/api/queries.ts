@@ -1,0 +1,61 @@
+/** What the pages read from the station, cached by TanStack Query. */
+import { keepPreviousData, queryOptions } from "@tanstack/react-query";
+
+import { get, post } from "./client";
+import type { Job, Mission, MissionDocument, Preview, Robot, RunDetail, RunDocument, RunTrack, SiteDocument, SiteSummary } from "./types";
+
+export const sitesQuery = queryOptions({ queryKey: ["sites"], queryFn: ({ signal }) => get<SiteSummary[]>("/api/sites", signal) });
+
+export const siteQuery = (id: string | null | undefined) =>
+  queryOptions({
+    queryKey: ["site", id],
+    queryFn: ({ signal }) => get<SiteDocument>(`/api/sites/${id}`, signal),
+    enabled: Boolean(id),
+  });
+
+export const missionsQuery = (siteId: string | null | undefined) =>
+  queryOptions({
+    queryKey: ["missions", siteId],
+    queryFn: ({ signal }) => get<MissionDocument[]>(`/api/sites/${siteId}/missions`, signal),
+    enabled: Boolean(siteId),
+  });
+
+/** The plan that would be driven. `revision` makes a changed site count as a changed question. */
+export const previewQuery = (siteId: string | undefined, mission: Mission | null, revision: number) =>
+  queryOptions({
+    queryKey: ["preview", siteId, revision, mission],
+    queryFn: () => post<Preview>(`/api/sites/${siteId}/preview`, { mission }),
+    enabled: Boolean(siteId && mission),
+    placeholderData: keepPreviousData,
+    staleTime: 60_000,
+  });
+
+export const robotQuery = queryOptions({
+  queryKey: ["robot"],
+  queryFn: ({ signal }) => get<Robot>("/api/robot", signal),
+  refetchInterval: 3000,
+});
+
+export const jobQuery = (id: string | null) =>
+  queryOptions({
+    queryKey: ["job", id],
+    queryFn: ({ signal }) => get<Job>(`/api/jobs/${id}`, signal),
+    enabled: id !== null,
+    refetchInterval: (query) => (query.state.data === undefined || query.state.data.state === "running" ? 500 : false),
+  });
+
+export const runsQuery = queryOptions({
+  queryKey: ["runs"],
+  queryFn: ({ signal }) => get<RunDocument[]>("/api/runs", signal),
+  refetchInterval: 5000,
+});
+
+export const runQuery = (id: string) =>
+  queryOptions({ queryKey: ["run", id], queryFn: ({ signal }) => get<RunDetail>(`/api/runs/${id}`, signal) });
+
+export const trackQuery = (id: string) =>
+  queryOptions({
+    queryKey: ["track", id],
+    queryFn: ({ signal }) => get<RunTrack>(`/api/runs/${id}/track`, signal),
+    staleTime: 30_000,
+  });
