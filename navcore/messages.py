@@ -136,6 +136,8 @@ class RowObservation:
         end_distance: distance ahead at which the row ends, m, None if no end is in sight.
         objects: number of trunks and posts that carried the fit.
         left_seen, right_seen: this frame's own evidence for each side (False: carried over from earlier frames).
+        image_offset, image_heading: paper A's reading of the image's bisector: lateral deviation of the centre line
+            at the look-ahead depth, m, and its angle to the image's vertical, rad; both positive to the left.
     """
 
     stamp_ns: int
@@ -152,11 +154,16 @@ class RowObservation:
     objects: int = 0
     left_seen: bool = False
     right_seen: bool = False
+    image_offset: float | None = None
+    image_heading: float | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CameraView:
-    """A picture's description for the browser; the camera's own JPEG travels beside it in the same message."""
+    """A picture's description for the browser; the camera's own JPEG travels beside it in the same message.
+
+    `centre` is the corridor's centre line on the ground, `bisector` the published one in the image.
+    """
 
     stamp_ns: int
     camera: CameraName
@@ -169,6 +176,7 @@ class CameraView:
     centre: ImageLine | None
     row: RowObservation
     latency_ms: float
+    bisector: ImageLine | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
