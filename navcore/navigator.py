@@ -1,1 +1,289 @@
-"""The walk through the house: predict, correct, choose the mode, follow, regulate, check zones, decide."""
+"""The walk through the house: sense, hear, steer along the route, judge, decide. One call per tick, and no clock inside.
+
+The robot, the simulator, the replay of a log and every test call `Navigator.step`. The same inputs give the same
+decisions, bit for bit.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+from navcore.chassis.protocol import GuardRequest, GuardState, MotionCommand
+from navcore.control.progress import ProgressCheck, ProgressParams
+from navcore.control.speed_regulation import SpeedLimit
+from navcore.errors import InputError
+from navcore.geometry.angles import wrap
+from navcore.localization.pose_filter import PoseFilter, PoseFilterParams
+from navcore.maps.site_map import Datum
+from navcore.messages import (
+    Decision,
+    LinkLossPolicy,
+    ModeSwitch,
+    NavInputs,
+    NavMode,
+    NavStatus,
+    Reply,
+    Request,
+    RequestKind,
+    RowObservation,
+    RunState,
+    SegmentKind,
+)
+from navcore.mission.driver import Driver, DriverParams, Driving
+from navcore.mission.events import Event, EventFacts, EventParams, active_events, effects_of
+from navcore.mission.evidence import NS, GnssEvidence, GnssEvidenceParams
+from navcore.mission.pilot import CARRIED, Pilot, PilotParams, Position
+from navcore.mission.senses import Senses
+from navcore.mission.state_machine import MOVING, UNDER_WAY, Circumstances, Effect, next_state, refusal
+from navcore.mission.status import ActiveEvents
+from navcore.vehicle import PAPER_A, VehicleParams
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NavigatorParams:
+    """Parameters of `Navigator`: those of its stages, and what holds for all commands.
+
+    Attributes:
+        command_ms: longest life of a command, ms, whatever its evidence.
+    """
+
+    command_ms: int = 200
+    events: EventParams = field(default_factory=EventParams)
+    gnss: GnssEvidenceParams = field(default_factory=GnssEvidenceParams)
+    pilot: PilotParams = field(default_factory=PilotParams)
+    driver: DriverParams = field(default_factory=DriverParams)
+    progress: ProgressParams = field(default_factory=ProgressParams)
+    filter: PoseFilterParams = field(default_factory=PoseFilterParams)
+
+
+class Navigator:
+    """Thinks for the robot: `step` is all there is."""
+
+    def __init__(self, datum: Datum, params: NavigatorParams, vehicle: VehicleParams = PAPER_A) -> None:
+        self.params, self.vehicle = params, vehicle
+        self.datum = (datum.lat_deg, datum.lon_deg, datum.height_m)
+        self.senses = Senses(PoseFilter(params.filter, datum), GnssEvidence(params.gnss))
+        self.driver = Driver(params.driver, vehicle)
+        self.progress = ProgressCheck(params.progress)
+        self.pilot: Pilot | None = None
+        self.state = RunState.IDLE
+        self.run_id: str | None = None
+        self.link_loss = LinkLossPolicy.CONTINUE
+        self._events = ActiveEvents()
+        self._driving = Driving.standing()
+        self._last_ns: int | None = None
+        self._state_since_ns = 0
+        self._heard_ns = 0
+        self._seq = 0
+
+    def step(self, now_ns: int, inputs: NavInputs) -> Decision:
+        """One tick: all that arrived since the last one in, one decision out."""
+        tick_s = 0.0 if self._last_ns is None else (now_ns - self._last_ns) * NS
+        self.senses.take(inputs)
+        at = self._position(now_ns)
+        switch = self._advance(at, inputs.rows, tick_s)
+        replies, request = self._hear(at, inputs.requests)
+        self._driving = self._steer(now_ns)
+        facts = self._facts(at, tick_s)
+        events = active_events(facts, self.params.events)
+        self._change_state(now_ns, events, request)
+        self._events.update(now_ns, events, facts)
+        self._last_ns = now_ns
+        return self._decide(now_ns, at, switch, replies, request)
+
+    def _position(self, now_ns: int) -> Position:
+        s = self.senses
+        return Position(
+            now_ns=now_ns, T_odom_base=s.T_odom_base, T_map_base=s.T_map_base, gnss_std=s.pose_std,
+            gnss_streak=s.gnss.streak, standing=s.standing,
+        )  # fmt: skip
+
+    def _advance(self, at: Position, rows: tuple[RowObservation, ...], dt: float) -> ModeSwitch | None:
+        if self.pilot is None or self.state not in UNDER_WAY:
+            return None
+        seen = tuple((row, self.senses.filter.odom_at(row.stamp_ns)) for row in rows)
+        return self.pilot.advance(at, seen, dt)
+
+    def _hear(self, at: Position, requests: tuple[Request, ...]) -> tuple[tuple[Reply, ...], RequestKind | None]:
+        """Answer every request; the newest accepted one counts, a stop before all others."""
+        replies, accepted = [], []
+        for request in requests:
+            reasons = self._refusals(at, request)
+            replies.append(Reply(request_id=request.request_id, accepted=not reasons, reasons=reasons))
+            if not reasons:
+                self._obey(at, request)
+                accepted.append(request.kind)
+        if RequestKind.STOP in accepted:
+            return tuple(replies), RequestKind.STOP
+        moving = [kind for kind in accepted if kind is not RequestKind.HEARTBEAT]
+        return tuple(replies), moving[-1] if moving else None
+
+    def _refusals(self, at: Position, request: Request) -> tuple[str, ...]:
+        nonsense = refusal(self.state, request.kind)
+        if nonsense:
+            return (nonsense,)
+        if request.kind is RequestKind.START:
+            return self._start_refusals(at, request)
+        return self._no_entry(at, None) if request.kind is RequestKind.RESUME else ()
+
+    def _start_refusals(self, at: Position, request: Request) -> tuple[str, ...]:
+        if request.plan is None or not request.run_id:
+            return ("The start carries no plan. Open the mission and start it again.",)
+        if request.plan.datum != self.datum:
+            return ("This mission belongs to another farm. Choose that farm first.",)
+        try:
+            pilot = self._new_pilot(at, request)
+        except InputError as error:
+            return (str(error),)
+        first = pilot.route.legs[0].line.at(0.0) if pilot else None
+        return self._no_entry(at, first)
+
+    def _new_pilot(self, at: Position, request: Request) -> Pilot | None:
+        if at.T_map_base is None or request.plan is None:
+            return None
+        return Pilot(request.plan, at, at.T_map_base, self.params.pilot)
+
+    def _no_entry(self, at: Position, start: tuple[float, float] | None) -> tuple[str, ...]:
+        distance = None
+        if start is not None and at.T_map_base is not None:
+            distance = math.dist(start, (at.T_map_base.x, at.T_map_base.y))
+        facts = self._facts(at, 0.0, distance)
+        on = active_events(facts, self.params.events)
+        return tuple(event.text(facts) for event in on if Effect.NO_ENTRY in event.effects)
+
+    def _obey(self, at: Position, request: Request) -> None:
+        self._heard_ns = at.now_ns
+        if request.kind is RequestKind.START:
+            self.pilot = self._new_pilot(at, request)
+            self.run_id, self.link_loss = request.run_id, request.link_loss
+        if request.kind in (RequestKind.START, RequestKind.RESUME):
+            self.driver.reset()
+            self.progress.reset()
+            if self.pilot is not None:
+                self.pilot.anchor.jump()
+
+    def _steer(self, now_ns: int) -> Driving:
+        if self.pilot is None or self.state not in (RunState.DRIVING, RunState.HOLDING):
+            return Driving.standing()
+        return self.driver.drive(now_ns, self.pilot, self.senses, self._limits())
+
+    def _limits(self) -> tuple[SpeedLimit, ...]:
+        """What the events of the last tick allow."""
+        return self.driver.slow_limit() if Effect.SLOW in self._events.effects else ()
+
+    def _facts(self, at: Position, tick_s: float, start_distance: float | None = None) -> EventFacts:
+        s, pilot, now_ns = self.senses, self.pilot, at.now_ns
+        since_s = (now_ns - self._state_since_ns) * NS
+        return EventFacts(
+            state=self.state,
+            mode=pilot.mode if pilot else NavMode.IDLE,
+            tick_s=tick_s,
+            chassis=s.chassis,
+            chassis_age_s=s.chassis_age_s(now_ns),
+            system_age_s=s.system_age_s(now_ns),
+            pose_std=s.pose_std,
+            carried=pilot.carried if pilot else 0.0,
+            gnss_age_s=s.gnss.age_s(now_ns),
+            gnss_trusted=s.gnss.streak > 0,
+            row_age_s=pilot.row.age_s(now_ns) if pilot else None,
+            row_reason=pilot.row.reason if pilot else "",
+            lateral_error=pilot.projection.lateral if pilot else None,
+            stuck=self._stuck(now_ns),
+            held_s=since_s if self.state is RunState.HOLDING else 0.0,
+            arming_s=since_s if self.state is RunState.STARTING else 0.0,
+            link_age_s=(now_ns - self._heard_ns) * NS,
+            link_loss=self.link_loss,
+            zone=self._driving.zone,
+            start_distance=start_distance,
+            waiting_for_gnss=self._waits_for_gnss(),
+        )
+
+    def _stuck(self, now_ns: int) -> bool:
+        if self.pilot is None or self.state is not RunState.DRIVING:
+            self.progress.reset()
+            return False
+        return self.progress.stuck(now_ns, self.pilot.route.driven(self.pilot.place))
+
+    def _waits_for_gnss(self) -> bool:
+        pilot = self.pilot
+        moving = self.state in (RunState.DRIVING, RunState.HOLDING)
+        return bool(moving and pilot and pilot.mode in CARRIED and pilot.segment.kind is SegmentKind.ROAD)
+
+    def _change_state(self, now_ns: int, events: tuple[Event, ...], request: RequestKind | None) -> None:
+        c = Circumstances(
+            effects=effects_of(events),
+            request=request,
+            armed=self.senses.armed,
+            arrived=bool(self.pilot and self.pilot.arrived),
+        )
+        after = next_state(self.state, c)
+        if after is not self.state:
+            self.state, self._state_since_ns = after, now_ns
+            if after is RunState.IDLE:
+                self.pilot = self.run_id = None
+
+    def _decide(
+        self, now_ns: int, at: Position, switch: ModeSwitch | None, replies: tuple[Reply, ...],
+        request: RequestKind | None,
+    ) -> Decision:  # fmt: skip
+        return Decision(
+            stamp_ns=now_ns,
+            command=self._command(now_ns),
+            status=self._status(now_ns),
+            switch=switch,
+            camera=self.pilot.camera_request(at) if self.pilot and self.state in UNDER_WAY else None,
+            guard_request=self._guard_request(request),
+            replies=replies,
+        )
+
+    def _status(self, now_ns: int) -> NavStatus:
+        s, pilot = self.senses, self.pilot
+        driven = pilot.route.driven(pilot.place) if pilot else 0.0
+        return NavStatus(
+            stamp_ns=now_ns,
+            state=self.state,
+            mode=pilot.mode if pilot else NavMode.IDLE,
+            mode_reason=pilot.mode_reason if pilot else "no mission",
+            run_id=self.run_id,
+            segment=pilot.route.segment_number(pilot.place) if pilot else 0,
+            segments=len(pilot.route.plan.segments) if pilot else 0,
+            row_id=pilot.segment.row_id if pilot else None,
+            progress=driven / pilot.route.length if pilot else 0.0,
+            remaining=pilot.route.length - driven if pilot else 0.0,
+            lateral_error=pilot.projection.lateral if pilot else None,
+            heading_error=wrap(pilot.pose.yaw - pilot.projection.heading) if pilot else None,
+            v=s.pose.v if s.pose else 0.0,
+            omega=s.pose.omega if s.pose else 0.0,
+            speed_limit=self._driving.speed_limit,
+            speed_reason=self._driving.speed_reason,
+            pose=s.pose,
+            gnss_quality=s.gnss_quality,
+            gnss_age_s=s.gnss.age_s(now_ns),
+            row_age_s=pilot.row.age_s(now_ns) if pilot else None,
+            battery_v=s.chassis.voltage_v if s.chassis else None,
+            guard=s.chassis.guard.name.lower() if s.chassis else "silent",
+            guard_reason=s.chassis.guard_reason if s.chassis else "No word from the chassis.",
+            events=self._events.on,
+        )
+
+    def _command(self, now_ns: int) -> MotionCommand | None:
+        """Zero unless driving; nothing at all while the guard does not listen."""
+        if not self.senses.armed:
+            return None
+        drives = self.state is RunState.DRIVING
+        v, omega = (self._driving.v, self._driving.omega) if drives else (0.0, 0.0)
+        evidence_ns = self._driving.deadline_ns if drives else now_ns + self.params.command_ms * 1_000_000
+        deadline_ns = min(evidence_ns, now_ns + self.params.command_ms * 1_000_000)
+        self._seq += 1
+        return MotionCommand(v=v, omega=omega, seq=self._seq, stamp_ns=now_ns, deadline_ns=deadline_ns)
+
+    def _guard_request(self, request: RequestKind | None) -> GuardRequest | None:
+        chassis = self.senses.chassis
+        latched = chassis is not None and chassis.guard is GuardState.LATCHED
+        if latched and request in (RequestKind.START, RequestKind.RESUME, RequestKind.ACKNOWLEDGE):
+            return GuardRequest.ACKNOWLEDGE
+        if self.state is RunState.STARTING and not self.senses.armed:
+            return GuardRequest.ARM
+        resting = self.state not in MOVING and self.state is not RunState.PAUSED
+        return GuardRequest.DISARM if resting and self.senses.armed and self.senses.standing else None

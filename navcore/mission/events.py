@@ -25,7 +25,6 @@ class EventParams:
         row_hold_s: age of the row line while it is driven on (hazard 37). hold_stop_s: longest hold.
         gnss_hold_s: longest wait for GNSS at the end of a row.
         off_path_slow, off_path_stop: distance from the path (hazard 50).
-        progress_s: longest time without progress (hazard 49).
         link_s: time without an operator's page (hazard 20).
         arming_s: longest time for the chassis to obey.
         start_distance: from the robot to the mission's start.
@@ -45,7 +44,6 @@ class EventParams:
     gnss_hold_s: float = 90.0
     off_path_slow: float = 0.3
     off_path_stop: float = 0.5
-    progress_s: float = 10.0
     link_s: float = 5.0
     arming_s: float = 5.0
     start_distance: float = 3.0
@@ -70,7 +68,7 @@ class EventFacts:
     row_age_s: float | None
     row_reason: str
     lateral_error: float | None
-    stuck_s: float
+    stuck: bool
     held_s: float
     arming_s: float
     link_age_s: float
@@ -228,7 +226,7 @@ EVENTS: tuple[Event, ...] = (
     ),
     _event(
         "no_progress", "STOP",
-        lambda f, p: f.state is RunState.DRIVING and f.stuck_s > p.progress_s,
+        lambda f, _: f.stuck,
         "The robot does not get on. Look what blocks it, then resume.",
     ),
     _event("zone", "STOP", lambda f, _: _moving(f) and bool(f.zone), lambda f: f.zone),

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 from navcore.geometry.angles import wrap
@@ -103,29 +102,3 @@ class GnssEvidence:
     def age_s(self, now_ns: int) -> float | None:
         """Age of the newest epoch with a position."""
         return None if self.newest is None else (now_ns - self.newest.stamp_ns) * NS
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ProgressParams:
-    """Hazard 49: `distance` m of the route must be driven within `progress_s` of the event table."""
-
-    distance: float = 0.5
-
-
-class Progress:
-    """For how long the robot has not got on."""
-
-    def __init__(self, params: ProgressParams) -> None:
-        self.params = params
-        self._reached = -math.inf
-        self._since_ns = 0
-
-    def restart(self, now_ns: int) -> None:
-        """Begin to count anew, after a rest."""
-        self._reached, self._since_ns = -math.inf, now_ns
-
-    def update(self, now_ns: int, driven: float) -> float:
-        """Seconds since the route got on by another stretch; `driven` metres of it are behind the robot."""
-        if driven >= self._reached + self.params.distance:
-            self._reached, self._since_ns = driven, now_ns
-        return (now_ns - self._since_ns) * NS

@@ -22,7 +22,7 @@ CHASSIS = ChassisState(
 WELL = EventFacts(
     state=RunState.DRIVING, mode=NavMode.GNSS_PATH, tick_s=0.02, chassis=CHASSIS, chassis_age_s=0.02,
     system_age_s=0.05, pose_std=0.02, carried=0.0, gnss_age_s=0.2, gnss_trusted=True, row_age_s=None, row_reason="",
-    lateral_error=0.02, stuck_s=0.0, held_s=0.0, arming_s=0.0, link_age_s=0.5, link_loss=LinkLossPolicy.STOP, zone="",
+    lateral_error=0.02, stuck=False, held_s=0.0, arming_s=0.0, link_age_s=0.5, link_loss=LinkLossPolicy.STOP, zone="",
     start_distance=0.1, waiting_for_gnss=False,
 )  # fmt: skip
 FAULTS: dict[str, dict[str, Any]] = {
@@ -46,7 +46,7 @@ FAULTS: dict[str, dict[str, Any]] = {
     "held_too_long": {"state": RunState.HOLDING, "held_s": 21.0},
     "off_path": {"lateral_error": -0.35},
     "far_off_path": {"lateral_error": 0.6},
-    "no_progress": {"stuck_s": 11.0},
+    "no_progress": {"stuck": True},
     "zone": {"zone": "A keep-out zone is ahead."},
     "link_lost": {"link_age_s": 6.0},
     "not_at_start": {"start_distance": 12.0},

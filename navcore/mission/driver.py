@@ -1,0 +1,153 @@
+"""From the pilot's line to a speed and a turn rate: follow, regulate, check zones."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from navcore.control.line_tracker import LineTracker, LineTrackerParams
+from navcore.control.look_ahead import LookAheadParams, gnss_look_ahead, row_look_ahead
+from navcore.control.prediction import ActuatorParams
+from navcore.control.speed_regulation import SpeedLimit, SpeedRegulation, SpeedRegulationParams, tightest
+from navcore.control.steering import Controller, Motion
+from navcore.control.target_line import TargetLine, target_from_path
+from navcore.messages import NavMode, PoseEstimate
+from navcore.mission.pilot import CARRIED, ON_CAMERA, Pilot
+from navcore.mission.senses import Senses
+from navcore.vehicle import VehicleParams
+
+S = 1_000_000_000
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DriverParams:
+    """Parameters of `Driver`.
+
+    Attributes:
+        slow: speed while an event says SLOW, m/s.
+        entry: speed before the row's entrance and at its end, m/s.
+        gnss_age_s, row_age_s, chassis_age_s: how long each input may be driven on, s; the shortest of those that were
+            used bounds the command's deadline.
+    """
+
+    slow: float = 0.3
+    entry: float = 0.5
+    gnss_age_s: float = 3.0
+    row_age_s: float = 0.5
+    chassis_age_s: float = 0.2
+    look_ahead: LookAheadParams = field(default_factory=LookAheadParams)
+    tracker: LineTrackerParams = field(default_factory=LineTrackerParams)
+    actuator: ActuatorParams = field(default_factory=ActuatorParams)
+    speed: SpeedRegulationParams = field(default_factory=SpeedRegulationParams)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Driving:
+    """Wanted motion of `base_link`, the moment until which it rests on fresh evidence, and why it is no faster.
+
+    Attributes:
+        zone: sentence if a zone forbids to go on, else empty.
+    """
+
+    v: float
+    omega: float
+    deadline_ns: int
+    speed_limit: float
+    speed_reason: str
+    zone: str = ""
+
+    @staticmethod
+    def standing() -> Driving:
+        """No motion wanted."""
+        return Driving(v=0.0, omega=0.0, deadline_ns=0, speed_limit=0.0, speed_reason="standing")
+
+
+class Driver:
+    """Tracks whatever line the pilot gives."""
+
+    def __init__(self, params: DriverParams, vehicle: VehicleParams) -> None:
+        self.params, self.vehicle = params, vehicle
+        self.controller: Controller = LineTracker(params.tracker, params.actuator)
+        self.regulation = SpeedRegulation(params.speed, max_acceleration=vehicle.max_acceleration)
+        self._leg = 0
+
+    def reset(self) -> None:
+        """Forget what belongs to the last line: the robot stands."""
+        self.controller.reset()
+        self.regulation.reset()
+
+    def slow_limit(self) -> tuple[SpeedLimit, ...]:
+        """What an event with the effect SLOW allows."""
+        return (SpeedLimit(speed=self.params.slow, reason="slow because of an event"),)
+
+    def drive(self, now_ns: int, pilot: Pilot, senses: Senses, limits: tuple[SpeedLimit, ...]) -> Driving:
+        """Motion for this tick."""
+        pose = senses.pose
+        if pose is None:
+            return Driving.standing()
+        self._on_new_leg(pilot)
+        target = self._target(pilot, senses, now_ns)
+        limit = self._speed(target, pilot, now_ns, (*limits, *self._mode_limits(pilot)))
+        v, omega = self._steer(target, pilot, pose, limit.speed, now_ns)
+        return Driving(
+            v=v,
+            omega=omega,
+            deadline_ns=target.deadline_ns,
+            speed_limit=limit.speed,
+            speed_reason=limit.reason,
+        )
+
+    def _on_new_leg(self, pilot: Pilot) -> None:
+        if pilot.place.leg != self._leg:
+            self._leg = pilot.place.leg
+            self.reset()
+
+    def _target(self, pilot: Pilot, senses: Senses, now_ns: int) -> TargetLine:
+        deadline_ns = self._deadline_ns(pilot, senses)
+        return target_from_path(
+            pilot.leg.line,
+            pilot.pose,
+            source=pilot.mode.value,
+            stamp_ns=now_ns,
+            max_age_ns=deadline_ns - now_ns,
+            near_s=pilot.place.s,
+        )
+
+    def _deadline_ns(self, pilot: Pilot, senses: Senses) -> int:
+        """Earliest of capture + maximum age over the inputs that this mode drives on."""
+        p, chassis = self.params, senses.chassis
+        limits = [chassis.stamp_ns + int(p.chassis_age_s * S)] if chassis else [0]
+        if pilot.mode is NavMode.GNSS_PATH:
+            fix = senses.gnss.newest
+            limits.append(fix.stamp_ns + int(p.gnss_age_s * S) if fix else 0)
+        if pilot.mode in ON_CAMERA:
+            seen = pilot.row.agreeing
+            limits.append(seen.stamp_ns + int(p.row_age_s * S) if seen else 0)
+        return min(limits)
+
+    def _mode_limits(self, pilot: Pilot) -> tuple[SpeedLimit, ...]:
+        if pilot.mode is NavMode.ROW_ENTRY or pilot.mode in CARRIED:
+            return (SpeedLimit(speed=self.params.entry, reason="between row and road"),)
+        return ()
+
+    def _speed(self, target: TargetLine, pilot: Pilot, now_ns: int, limits: tuple[SpeedLimit, ...]) -> SpeedLimit:
+        wanted = tightest((
+            SpeedLimit(speed=pilot.leg.speed(pilot.place.s), reason="planned"),
+            SpeedLimit(speed=self.vehicle.max_speed, reason="vehicle"),
+        ))  # fmt: skip
+        gain = self.controller.turn_gain if isinstance(self.controller, LineTracker) else 1.0
+        return self.regulation.regulate(
+            target, wanted=wanted.speed, now_ns=now_ns, turn_gain=gain, lateral_std=0.0, capturing=True, others=limits
+        )
+
+    def _steer(
+        self, target: TargetLine, pilot: Pilot, pose: PoseEstimate, speed: float, now_ns: int
+    ) -> tuple[float, float]:
+        """(v, omega) of `base_link`; a leg driven backwards only turns the sign of v."""
+        sign = -1.0 if pilot.leg.reverse else 1.0
+        in_row = pilot.mode in ON_CAMERA
+        look_ahead = (
+            row_look_ahead(speed, self.params.look_ahead) if in_row else gnss_look_ahead(self.params.look_ahead)
+        )
+        motion = Motion(v=sign * pose.v, omega=pose.omega)
+        steering = self.controller.steer(target, motion, v=speed, look_ahead=look_ahead, now_ns=now_ns)
+        return sign * steering.v, steering.omega

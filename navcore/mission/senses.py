@@ -1,0 +1,77 @@
+"""What the navigator knows of the robot itself: pose, motion, chassis, and how fresh each of them is."""
+
+from __future__ import annotations
+
+import math
+
+from navcore.chassis.protocol import ChassisState, ControlMode, GuardState
+from navcore.geometry.se2 import SE2
+from navcore.localization.pose_filter import PoseFilter
+from navcore.messages import FixQuality, NavInputs, PoseEstimate
+from navcore.mission.evidence import NS, GnssEvidence
+
+STANDING_V = 0.03
+STANDING_OMEGA = 0.05
+
+
+class Senses:
+    """Feeds the pose filter and keeps the newest of everything else."""
+
+    def __init__(self, pose_filter: PoseFilter, gnss: GnssEvidence) -> None:
+        self.filter = pose_filter
+        self.gnss = gnss
+        self.chassis: ChassisState | None = None
+        self.pose: PoseEstimate | None = None
+        self.T_odom_base = SE2(0.0, 0.0, 0.0)
+
+    def take(self, inputs: NavInputs) -> None:
+        """Predict and correct with all that this tick consumed."""
+        for state in inputs.chassis:
+            self.chassis = state
+            self.filter.add_chassis(state)
+        for sample in inputs.imu:
+            self.filter.add_imu(sample)
+        for fix in inputs.gnss:
+            self.gnss.add(fix)
+            self.filter.add_gnss(fix)
+        self.pose = self.filter.estimate(inputs.now_ns)
+        self.T_odom_base = self.filter.odom_at(inputs.now_ns)
+
+    @property
+    def T_map_base(self) -> SE2 | None:
+        """The filter's pose, None before it has one."""
+        return SE2(self.pose.x, self.pose.y, self.pose.yaw) if self.pose else None
+
+    @property
+    def pose_std(self) -> float | None:
+        """1-sigma of the position, m: the larger half axis of its ellipse."""
+        if self.pose is None:
+            return None
+        xx, xy, yy = self.pose.covariance[0], self.pose.covariance[1], self.pose.covariance[4]
+        mean, difference = (xx + yy) / 2, (xx - yy) / 2
+        return math.sqrt(max(mean + math.hypot(difference, xy), 0.0))
+
+    @property
+    def standing(self) -> bool:
+        """The chassis says that it does not move."""
+        c = self.chassis
+        return c is not None and abs(c.v) < STANDING_V and abs(c.omega) < STANDING_OMEGA
+
+    @property
+    def armed(self) -> bool:
+        """The guard lets motion out and the chassis obeys."""
+        c = self.chassis
+        return c is not None and c.guard is GuardState.ARMED and c.mode is ControlMode.CAN
+
+    @property
+    def gnss_quality(self) -> FixQuality:
+        """Quality of the newest epoch with a position."""
+        return self.gnss.newest.quality if self.gnss.newest else FixQuality.NONE
+
+    def chassis_age_s(self, now_ns: int) -> float | None:
+        """Age of the newest motion feedback."""
+        return None if self.chassis is None else (now_ns - self.chassis.stamp_ns) * NS
+
+    def system_age_s(self, now_ns: int) -> float | None:
+        """Age of the newest system state."""
+        return None if self.chassis is None else (now_ns - self.chassis.system_stamp_ns) * NS
