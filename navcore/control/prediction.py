@@ -1,0 +1,82 @@
+"""Where the robot will be when a command given now begins to act."""
+
+from __future__ import annotations
+
+from collections import deque
+from dataclasses import dataclass
+from math import exp
+
+from navcore.control.steering import Motion
+from navcore.geometry.se2 import SE2
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ActuatorParams:
+    """The chassis between command and ground.
+
+    Attributes:
+        dead_time: s from the decision until the wheels begin to answer (bus, firmware); 0 to 0.5.
+        lag: time constant of the wheels' first-order answer, s; 0.01 to 1 (Scout-like: 0.18).
+        step: integration step, s.
+    """
+
+    dead_time: float = 0.08
+    lag: float = 0.18
+    step: float = 0.02
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Predicted:
+    """Motion until the command acts.
+
+    Attributes:
+        T_now_then: pose then in the driving frame of now.
+        motion: v and omega then.
+    """
+
+    T_now_then: SE2
+    motion: Motion
+
+
+class CommandHistory:
+    """Commands that are still under way to the wheels, oldest first."""
+
+    def __init__(self, params: ActuatorParams = ActuatorParams()) -> None:
+        self._params = params
+        self._commands: deque[tuple[int, float, float]] = deque()
+
+    def add(self, now_ns: int, v: float, omega: float) -> None:
+        """Remember a command given now; forget those that have long acted."""
+        self._commands.append((now_ns, v, omega))
+        oldest = now_ns - round((self._params.dead_time + 0.5) * 1e9)
+        while len(self._commands) > 1 and self._commands[1][0] < oldest:
+            self._commands.popleft()
+
+    def clear(self) -> None:
+        """No command is under way: the robot stands."""
+        self._commands.clear()
+
+    def acting_at(self, time_ns: int) -> tuple[float, float] | None:
+        """(v, omega) that the wheels are told at that moment, None before the first."""
+        sent_before = time_ns - round(self._params.dead_time * 1e9)
+        for stamp_ns, v, omega in reversed(self._commands):
+            if stamp_ns <= sent_before:
+                return v, omega
+        return None
+
+    def predict(self, now_ns: int, motion: Motion, turn_gain: float, horizon: float) -> Predicted:
+        """Integrate the first-order answer to the commands under way over `horizon` seconds.
+
+        `turn_gain` is the share of a commanded turn rate that reaches the ground.
+        """
+        pose, v, omega = SE2(), motion.v, motion.omega
+        steps = max(round(horizon / self._params.step), 1)
+        dt = horizon / steps
+        keep = exp(-dt / self._params.lag)
+        for k in range(steps):
+            told = self.acting_at(now_ns + round(k * dt * 1e9)) or (v, omega / turn_gain)
+            v_next = told[0] + (v - told[0]) * keep
+            omega_next = turn_gain * told[1] + (omega - turn_gain * told[1]) * keep
+            pose = pose @ SE2.arc(0.5 * (v + v_next) * dt, 0.5 * (omega + omega_next) * dt)
+            v, omega = v_next, omega_next
+        return Predicted(T_now_then=pose, motion=Motion(v=v, omega=omega))

@@ -1,0 +1,166 @@
+"""How fast the robot may go: a chain of small functions that may only reduce."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from navcore.control.target_line import TargetLine
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SpeedLimit:
+    """A bound on the speed, m/s, and its cause in words."""
+
+    speed: float
+    reason: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SpeedRegulationParams:
+    """Attributes:
+    max_turn_rate: rad/s of command (paper A: 0.75); `turn_share` of it is planned for curves, the rest corrects.
+    max_lateral_acceleration: m/s^2; 0.5 keeps a load of crates standing.
+    braking: m/s^2, comfortable; at most the vehicle's own.
+    reaction: s from decision to the first braking (dead time and lag of the chassis).
+    preview_step, preview: m, where and how far ahead the line's curvature is looked at.
+    slow_deviation, stop_deviation: m of lateral error (control validator and hazard table: slow 0.3, stop 0.5).
+    capture_speed: m/s while the line is further away than slow_deviation.
+    slow_std, stop_std: m, 1-sigma of the position across the line at which to slow and to stop.
+    crawl: m/s, the least speed that is asked for while driving on.
+    arrival: m before the end of the line that counts as there.
+    """
+
+    max_turn_rate: float = 0.75
+    turn_share: float = 0.75
+    max_lateral_acceleration: float = 0.5
+    braking: float = 0.4
+    reaction: float = 0.26
+    preview_step: float = 0.2
+    preview: float = 2.0
+    slow_deviation: float = 0.3
+    stop_deviation: float = 0.5
+    capture_speed: float = 0.5
+    slow_std: float = 0.10
+    stop_std: float = 0.50
+    crawl: float = 0.10
+    arrival: float = 0.05
+
+
+def tightest(limits: Iterable[SpeedLimit]) -> SpeedLimit:
+    """The lowest limit; of equal ones the first."""
+    return min(limits, key=lambda limit: limit.speed)
+
+
+def braking_speed(distance: float, end_speed: float, params: SpeedRegulationParams) -> float:
+    """Highest speed from which `end_speed` is reached within `distance` after the reaction time.
+
+    Solves distance = v t + (v^2 - end_speed^2) / (2 a) for v.
+    """
+    a, t = params.braking, params.reaction
+    root = (a * t) ** 2 + 2.0 * a * max(distance, 0.0) + end_speed**2
+    return max(math.sqrt(root) - a * t, 0.0)
+
+
+def stopping_distance(v: float, params: SpeedRegulationParams) -> float:
+    """Way from the decision to standstill, m: v t + v^2 / (2 a)."""
+    return v * params.reaction + v * v / (2.0 * params.braking)
+
+
+def curve_speed(curvature: float, turn_gain: float, params: SpeedRegulationParams) -> SpeedLimit:
+    """What a curve (1/m) allows by turn rate on this ground and by lateral acceleration."""
+    k = max(abs(curvature), 1e-6)
+    turning = SpeedLimit(
+        speed=params.turn_share * params.max_turn_rate * turn_gain / k, reason="curve ahead: turn rate is limited"
+    )
+    leaning = SpeedLimit(speed=math.sqrt(params.max_lateral_acceleration / k), reason="curve ahead: sideways pull")
+    return tightest((turning, leaning))
+
+
+def curve_limit(target: TargetLine, turn_gain: float, params: SpeedRegulationParams) -> SpeedLimit:
+    """The tightest curve within the preview, each reached by braking until there."""
+    limits = []
+    for k in range(math.ceil(params.preview / params.preview_step) + 1):
+        ahead = k * params.preview_step
+        there = curve_speed(target.curvature_ahead(ahead), turn_gain, params)
+        limits.append(SpeedLimit(speed=braking_speed(ahead, there.speed, params), reason=there.reason))
+    return tightest(limits)
+
+
+def end_limit(remaining: float | None, params: SpeedRegulationParams, end_speed: float = 0.0) -> SpeedLimit:
+    """Braking for the end of the line; `end_speed` where the path goes on with that speed."""
+    if remaining is None:
+        return SpeedLimit(speed=math.inf, reason="no end in sight")
+    if remaining <= params.arrival and end_speed <= 0.0:
+        return SpeedLimit(speed=0.0, reason="end of the line reached")
+    speed = braking_speed(remaining, end_speed, params)
+    return SpeedLimit(speed=max(speed, params.crawl), reason=f"end of the line in {remaining:.1f} m")
+
+
+def deviation_limit(lateral_error: float, capturing: bool, params: SpeedRegulationParams) -> SpeedLimit:
+    """Slow when off the line, stop when far off; `capturing` (still getting onto it) only slows."""
+    off = abs(lateral_error)
+    if off > params.stop_deviation and not capturing:
+        return SpeedLimit(speed=0.0, reason=f"{off:.2f} m off the line: stop")
+    if off > params.slow_deviation:
+        return SpeedLimit(speed=params.capture_speed, reason=f"{off:.2f} m off the line")
+    return SpeedLimit(speed=math.inf, reason="on the line")
+
+
+def quality_limit(lateral_std: float | None, wanted: float, params: SpeedRegulationParams) -> SpeedLimit:
+    """Slower the less is known across the line: full speed up to slow_std, nothing from stop_std on."""
+    if lateral_std is None or not math.isfinite(lateral_std):
+        return SpeedLimit(speed=0.0, reason="position not known")
+    if lateral_std >= params.stop_std:
+        return SpeedLimit(speed=0.0, reason=f"position known only to {lateral_std:.2f} m: stop")
+    if lateral_std <= params.slow_std:
+        return SpeedLimit(speed=math.inf, reason="position well known")
+    share = (params.stop_std - lateral_std) / (params.stop_std - params.slow_std)
+    return SpeedLimit(speed=max(share * wanted, params.crawl), reason=f"position known to {lateral_std:.2f} m only")
+
+
+class SpeedRegulation:
+    """The chain: the wanted speed, reduced by each limit in turn, rising no faster than the acceleration."""
+
+    def __init__(
+        self, params: SpeedRegulationParams = SpeedRegulationParams(), *, max_acceleration: float = 0.6
+    ) -> None:
+        self._params, self._max_acceleration = params, max_acceleration
+        self._speed, self._last_ns = 0.0, -1
+
+    def reset(self, speed: float = 0.0) -> None:
+        """Start again from `speed` (m/s), 0 after a standstill."""
+        self._speed, self._last_ns = speed, -1
+
+    def regulate(
+        self, target: TargetLine, *, wanted: float, now_ns: int, turn_gain: float, lateral_std: float | None,
+        capturing: bool = False, end_speed: float = 0.0, others: tuple[SpeedLimit, ...] = (),
+    ) -> SpeedLimit:  # fmt: skip
+        """Speed for this tick with the tightest cause.
+
+        Args:
+            turn_gain: share of a commanded turn rate that reaches the ground.
+            lateral_std: 1-sigma of the position across the line, m, None if not known (then the answer is 0).
+            end_speed: speed at which the line's end may be passed.
+            others: limits found elsewhere (zones, events).
+        """
+        p = self._params
+        limit = tightest((
+            SpeedLimit(speed=wanted, reason="as planned"),
+            curve_limit(target, turn_gain, p),
+            end_limit(target.remaining, p, end_speed),
+            deviation_limit(target.lateral_error, capturing, p),
+            quality_limit(lateral_std, wanted, p),
+            *others,
+        ))  # fmt: skip
+        return self._rising_slowly(limit, now_ns)
+
+    def _rising_slowly(self, limit: SpeedLimit, now_ns: int) -> SpeedLimit:
+        dt = min((now_ns - self._last_ns) * 1e-9, 0.2) if self._last_ns >= 0 else 0.0
+        self._last_ns = now_ns
+        reachable = self._speed + self._max_acceleration * dt
+        self._speed = min(limit.speed, reachable)
+        if reachable < limit.speed - 0.01:
+            return SpeedLimit(speed=self._speed, reason="speeding up")
+        return SpeedLimit(speed=self._speed, reason=limit.reason)

@@ -1,0 +1,45 @@
+"""What every controller takes and gives."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+from navcore.control.target_line import TargetLine
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Motion:
+    """How the robot moves now, in the driving frame: `v` along x (m/s) and true turn rate `omega` (rad/s)."""
+
+    v: float
+    omega: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Steering:
+    """Command in the driving frame, and why.
+
+    Attributes:
+        v: m/s, as asked.
+        omega: rad/s to be commanded, within the limit.
+        curvature: of the wanted motion, 1/m, before limits and slip correction.
+        turn_gain: share of a commanded turn rate that the ground is believed to give.
+        saturated: the limit on omega was reached.
+    """
+
+    v: float
+    omega: float
+    curvature: float
+    turn_gain: float
+    saturated: bool
+
+
+class Controller(Protocol):
+    """Follows a target line."""
+
+    def steer(self, target: TargetLine, motion: Motion, *, v: float, look_ahead: float, now_ns: int) -> Steering:
+        """Command for this tick at the wanted speed `v` >= 0."""
+
+    def reset(self) -> None:
+        """Forget what belongs to the last line: called on standstill and on a change of direction."""

@@ -1,0 +1,95 @@
+"""The line to follow, whoever found it, as the robot sees it now."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from navcore.errors import NotFiniteError
+from navcore.geometry.angles import wrap
+from navcore.geometry.line2 import Line2
+from navcore.geometry.polyline import Polyline
+from navcore.geometry.se2 import SE2
+
+# How much of a path is handed to the controller: enough behind for a projection, ahead for braking, m.
+BEHIND = 1.5
+AHEAD = 8.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TargetLine:
+    """A line in the driving frame (x the way the robot drives, y left) at the moment `now` of its making.
+
+    Attributes:
+        source: who found it, a word for people and logs.
+        stamp_ns: capture time of the oldest measurement that it rests on.
+        max_age_ns: how old that may be while still being driven on.
+        path: the line in the driving frame, directed the way it is driven.
+        s: arc length on `path` of the point nearest to the robot.
+        lateral_error: of the robot from the line, m, positive when the robot is left of it.
+        heading_error: of the robot from the line's direction, rad, positive when it points too far left.
+        remaining: metres from that point to the line's end; None if the line has no known end.
+    """
+
+    source: str
+    stamp_ns: int
+    max_age_ns: int
+    path: Polyline
+    s: float
+    lateral_error: float
+    heading_error: float
+    remaining: float | None = None
+
+    @property
+    def deadline_ns(self) -> int:
+        """After this moment the line must not be driven on."""
+        return self.stamp_ns + self.max_age_ns
+
+    def curvature_ahead(self, distance: float) -> float:
+        """Curvature of the line `distance` metres ahead of the robot, 1/m."""
+        return self.path.curvature_at(self.s + distance)
+
+
+def target_from_path(
+    path: Polyline, T_map_driving: SE2, *, source: str, stamp_ns: int, max_age_ns: int, near_s: float | None = None
+) -> TargetLine:
+    """Target of a path in `map` for a robot at `T_map_driving`; `near_s` as in `Polyline.project`.
+
+    Past the path's end the line goes on straight. Raises NotFiniteError for a pose that is no number.
+    """
+    hit = path.project(T_map_driving.x, T_map_driving.y, near_s)
+    s0, s1 = hit.s - BEHIND, hit.s + hit.beyond + AHEAD
+    inner = path.points[(path.s > s0 + 1e-6) & (path.s < s1 - 1e-6)]
+    points = np.vstack((path.at(s0), inner, path.at(s1)))
+    return TargetLine(
+        source=source, stamp_ns=stamp_ns, max_age_ns=max_age_ns,
+        path=Polyline(T_map_driving.inverse().apply(points)), s=BEHIND + hit.beyond,
+        lateral_error=hit.lateral, heading_error=wrap(T_map_driving.yaw - hit.heading),
+        remaining=path.length - hit.s - hit.beyond,
+    )  # fmt: skip
+
+
+def target_from_line(
+    line: Line2, *, source: str, stamp_ns: int, max_age_ns: int, remaining: float | None = None
+) -> TargetLine:
+    """Target of a straight line in the driving frame, such as a row's centre line moved to now.
+
+    The line may point either way: it is turned to the way the robot drives. Raises NotFiniteError.
+    """
+    if not all(map(math.isfinite, (line.nx, line.ny, line.offset))):
+        raise NotFiniteError("A line to follow must be finite.")
+    ahead = line if abs(line.heading) <= math.pi / 2 else line.reversed()
+    fx, fy = ahead.foot
+    ux, uy = math.cos(ahead.heading), math.sin(ahead.heading)
+    points = np.array([(fx + a * ux, fy + a * uy) for a in (-BEHIND, AHEAD)])
+    return TargetLine(
+        source=source, stamp_ns=stamp_ns, max_age_ns=max_age_ns, path=Polyline(points), s=BEHIND,
+        lateral_error=ahead.distance(0.0, 0.0), heading_error=wrap(-ahead.heading), remaining=remaining,
+    )  # fmt: skip
+
+
+def line_from_row(offset: float, heading: float) -> Line2:
+    """A row observation (`offset` positive if the line is left of the robot, `heading` of the line) as a line."""
+    return Line2.along((-offset * math.sin(heading), offset * math.cos(heading)), heading)
