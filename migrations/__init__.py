@@ -1,1 +1,1 @@
-"""Database migrations (Alembic)."""
+"""Schema migrations of the station's database, run at start by `backend.database`."""

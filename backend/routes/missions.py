@@ -1,0 +1,79 @@
+"""Missions: edit, one click on a row, preview by the code that drives."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Body, Response
+
+from backend import planner, site_files
+from backend.deps import ERRORS, PathId, TheStation
+from backend.schemas import (
+    MissionCreate,
+    MissionDocument,
+    MissionEdit,
+    Preview,
+    PreviewRequest,
+    RowMissionRequest,
+)
+from navcore.maps.mission import Mission
+
+router = APIRouter(prefix="/api", tags=["missions"], responses=ERRORS)
+GeoJson = Annotated[dict[str, Any], Body(description="GeoJSON FeatureCollection")]
+
+
+@router.get("/sites/{site_id}/missions")
+def list_missions(station: TheStation, site_id: PathId) -> list[MissionDocument]:
+    """All missions of a site, by name."""
+    return station.missions.of_site(site_id)
+
+
+@router.post("/sites/{site_id}/missions", status_code=201)
+def create_mission(station: TheStation, site_id: PathId, body: MissionCreate) -> MissionDocument:
+    """Store a mission."""
+    return station.missions.create(site_id, body.mission)
+
+
+@router.post("/sites/{site_id}/missions/for-row")
+def row_mission(station: TheStation, site_id: PathId, body: RowMissionRequest) -> Mission:
+    """The whole mission to a row and back along the lanes; not saved."""
+    return planner.row_mission(station.sites.get(site_id).site, body.row_id, body.exit)
+
+
+@router.post("/sites/{site_id}/missions/import", status_code=201)
+def import_mission(station: TheStation, site_id: PathId, body: GeoJson) -> MissionDocument:
+    """Store a mission from GeoJSON."""
+    site = station.sites.get(site_id).site
+    return station.missions.create(site_id, site_files.read_mission(body, site))
+
+
+@router.post("/sites/{site_id}/preview")
+def preview_mission(station: TheStation, site_id: PathId, body: PreviewRequest) -> Preview:
+    """What would be driven, or every reason why it cannot be."""
+    return planner.preview(station.sites.get(site_id).site, body.mission, station.vehicle)
+
+
+@router.get("/missions/{mission_id}")
+def read_mission(station: TheStation, mission_id: PathId) -> MissionDocument:
+    """One mission."""
+    return station.missions.get(mission_id)
+
+
+@router.put("/missions/{mission_id}")
+def update_mission(station: TheStation, mission_id: PathId, body: MissionEdit) -> MissionDocument:
+    """Replace the mission; 409 if it was changed since `version`. A running copy is not touched."""
+    return station.missions.update(mission_id, body.version, body.mission)
+
+
+@router.delete("/missions/{mission_id}", status_code=204)
+def delete_mission(station: TheStation, mission_id: PathId) -> None:
+    """Delete a mission. Its runs stay."""
+    station.missions.delete(mission_id)
+
+
+@router.get("/missions/{mission_id}/geojson", response_model=dict[str, Any])
+def export_mission(station: TheStation, mission_id: PathId, response: Response) -> dict[str, Any]:
+    """The mission as GeoJSON."""
+    document = station.missions.get(mission_id)
+    response.headers["Content-Disposition"] = f'attachment; filename="mission-{mission_id}.geojson"'
+    return site_files.write_mission(document.mission, station.sites.get(document.site_id).site)

@@ -1,0 +1,22 @@
+"""The 3D view: viser on loopback, shown under our own address behind our own login."""
+
+from __future__ import annotations
+
+from fastapi import APIRouter, Request, Response, WebSocket
+
+from backend import scene_proxy
+from backend.deps import TheLogin, TheStation
+
+router = APIRouter(tags=["scene"], include_in_schema=False)
+
+
+@router.get("/scene/{path:path}")
+async def scene_files(station: TheStation, login: TheLogin, request: Request, path: str) -> Response:
+    """The viewer's files, streamed from the loopback server."""
+    return await scene_proxy.fetch(request, station.settings.scene_port, path)
+
+
+@router.websocket("/scene")
+async def scene_socket(websocket: WebSocket, station: TheStation) -> None:
+    """The viewer's socket; its client leaves the slash out."""
+    await scene_proxy.bridge(websocket, station.settings.scene_port, station.logins)
