@@ -1,0 +1,63 @@
+"""What row perception says: the observation for the robot, the description of the picture for the browser."""
+
+from __future__ import annotations
+
+import math
+
+from navcore.geometry.line2 import Line2
+from navcore.geometry.pinhole import PinholeCamera
+from navcore.messages import CameraName, CameraView, DetectedObject, ImageLine, ImagePoint, RowObservation
+from navcore.perception.corner_points import CornerPoints
+from navcore.perception.image_lines import image_line
+from navcore.perception.row_lines import GroundRow, RowLines
+
+
+def row_observation(
+    stamp_ns: int, name: CameraName, lines: RowLines, ground: GroundRow | str, end: float | None,
+    published: tuple[float, float] | None,
+) -> RowObservation:  # fmt: skip
+    """The row on the ground, or the reason why there is none; `published` is the bisector's reading beside it."""
+    if isinstance(ground, str):
+        return RowObservation(stamp_ns=stamp_ns, camera=name, valid=False, reason=ground, end_distance=end)
+    image_offset, image_heading = published or (None, None)
+    return RowObservation(
+        stamp_ns=stamp_ns, camera=name, valid=True, reason="", offset=ground.offset, heading=ground.heading,
+        offset_std=math.sqrt(ground.covariance[0, 0]), heading_std=math.sqrt(ground.covariance[1, 1]),
+        quality=ground.quality, width=ground.width, end_distance=end,
+        objects=len(ground.left_x) + len(ground.right_x), left_seen=lines.left_seen, right_seen=lines.right_seen,
+        image_offset=image_offset, image_heading=image_heading,
+    )  # fmt: skip
+
+
+def camera_view(
+    camera: PinholeCamera, objects: tuple[DetectedObject, ...], corners: CornerPoints, lines: RowLines,
+    ground: GroundRow | str, bisector: Line2 | None, row: RowObservation, latency_ms: float,
+) -> CameraView:  # fmt: skip
+    """Boxes, corner points and lines, as they are drawn over the picture. A row that is not valid has no lines."""
+    shown = None if isinstance(ground, str) or not row.valid else ground
+    left, right = (lines.left, lines.right) if shown else (None, None)
+    centre = image_line(camera, offset=shown.offset, heading=shown.heading, pitch=shown.pitch) if shown else None
+    pitch = shown.pitch if shown else 0.0
+    return CameraView(
+        stamp_ns=row.stamp_ns, camera=row.camera, width_px=camera.width_px, height_px=camera.height_px,
+        objects=objects, points=_points(corners, lines), left=_segment(left, camera, pitch),
+        right=_segment(right, camera, pitch), centre=_segment(centre, camera, pitch), row=row, latency_ms=latency_ms,
+        bisector=_segment(bisector if shown else None, camera, pitch),
+    )  # fmt: skip
+
+
+def _points(corners: CornerPoints, lines: RowLines) -> tuple[ImagePoint, ...]:
+    return tuple(
+        ImagePoint(u=float(u), v=float(v), side="left" if on_left else "right", kept=bool(kept))
+        for (u, v), on_left, kept in zip(corners.points, lines.on_left, lines.kept, strict=True)
+    )
+
+
+def _segment(line: Line2 | None, camera: PinholeCamera, pitch: float) -> ImageLine | None:
+    """The part of a line from the image's lower edge to just below the horizon; None for a level line."""
+    horizon = camera.cy - camera.fy * math.tan(camera.pitch + pitch)
+    far = horizon + 0.02 * camera.height_px
+    ends = (line.x_at(float(camera.height_px)), line.x_at(far)) if line else (None, None)
+    if ends[0] is None or ends[1] is None:
+        return None
+    return ImageLine(u0=ends[0], v0=float(camera.height_px), u1=ends[1], v1=far)

@@ -1,0 +1,236 @@
+"""The default row fitter: the corridor on the ground, followed from picture to picture."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from navcore.geometry.angles import wrap
+from navcore.geometry.line2 import Line2
+from navcore.geometry.pinhole import PinholeCamera
+from navcore.geometry.se2 import SE2
+from navcore.perception.corner_points import CornerPoints
+from navcore.perception.corridor_fit import Corridor, CorridorFit, CorridorFitParams
+from navcore.perception.image_lines import image_line
+from navcore.perception.row_lines import GroundRow, RowCue, RowLines, RowPrior
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CorridorTrackerParams:
+    """When a corridor is believed, and how fast belief fades. Ours; set on rendered frames.
+
+    Attributes:
+        fit: of one picture.
+        width, width_std: usual corridor width where none is told, m; `told_width_std` where one is.
+        offset_std, heading_std_deg: prior of a robot somewhere in a corridor, without a `RowPrior`.
+        pitch_std_deg: 1-sigma of the camera's pitch about its mount: +-2 deg of terrain.
+        drift_per_m, turn_drift_per_m: how fast offset (m) and heading (rad) become uncertain per square root of a
+            metre driven; `turn_slip` is the share of a turn by which odometry may be wrong.
+        min_objects: fewer do not start a track.
+        one_side_objects: so many on one side start a track where a `RowPrior` is given, the other side unseen.
+        max_offset_std, max_heading_std_deg: a row less certain than that is not shown.
+        carry: so far a row is carried without any evidence, m.
+        lost_share, lost_frames: a track that explains less than that share of the near objects in so many pictures
+            in a row is dropped.
+        wrong_row: a corridor further from the prior than that share of the width is another row.
+        max_prior_std: a prior less certain than that share of the width cannot tell a row from its neighbours.
+        floor_offset, floor_heading_deg: 1-sigma of what no fit can see: mount, roll, planting.
+    """
+
+    fit: CorridorFitParams = CorridorFitParams()
+    width: float = 3.0
+    width_std: float = 0.45
+    told_width_std: float = 0.15
+    offset_std: float = 0.7
+    heading_std_deg: float = 12.0
+    pitch_std_deg: float = 1.3
+    drift_per_m: float = 0.04
+    turn_drift_per_m: float = 0.02
+    turn_slip: float = 0.2
+    min_objects: int = 4
+    one_side_objects: int = 3
+    max_offset_std: float = 0.22
+    max_heading_std_deg: float = 4.0
+    carry: float = 1.0
+    lost_share: float = 0.34
+    lost_frames: int = 4
+    wrong_row: float = 0.5
+    max_prior_std: float = 0.3
+    floor_offset: float = 0.02
+    floor_heading_deg: float = 0.4
+
+
+@dataclass(slots=True)
+class _Track:
+    """What is remembered of the last picture."""
+
+    state: Floats
+    covariance: Floats
+    unseen: float = 0.0
+    doubts: int = 0
+
+
+class CorridorTracker:
+    """Follows one corridor; starts anew where the motion between two pictures is not known."""
+
+    def __init__(self, camera: PinholeCamera, params: CorridorTrackerParams) -> None:
+        self._camera = camera
+        self._params = params
+        self._fit = CorridorFit(camera, params.fit)
+        self._track: _Track | None = None
+
+    def forget(self) -> None:
+        """Drop the track."""
+        self._track = None
+
+    def fit(self, corners: CornerPoints, cue: RowCue) -> RowLines:
+        """Predict, then follow; or look for the corridor that fits picture and prior best."""
+        self._track = self._predicted(cue)
+        if self._track is not None:
+            return self._follow(self._track, corners)
+        if len(corners) == 0:
+            return _nothing(corners, "no trunk or post in sight")
+        return self._start(corners, cue.prior)
+
+    def _predicted(self, cue: RowCue) -> _Track | None:
+        """The track in the frame of this picture, None if there is none or it follows another row."""
+        if self._track is None or cue.motion is None:
+            return None
+        track = _moved(self._track, cue.motion, self._params)
+        return None if _other_row(track, cue.prior, self._params) else track
+
+    def _follow(self, track: _Track, corners: CornerPoints) -> RowLines:
+        corridor = self._fit.follow(corners.feet, track.state, _inverse(track.covariance))
+        seen = int(np.count_nonzero(corridor.sides))
+        near = int(np.count_nonzero(np.nan_to_num(corridor.x, nan=99.0) < 8.0))
+        track.doubts = track.doubts + 1 if near >= 4 and seen < self._params.lost_share * near else 0
+        track.unseen = 0.0 if seen else track.unseen
+        track.state, track.covariance = corridor.state, corridor.covariance
+        reason = self._doubt(track, corridor, len(corners))
+        if reason:
+            self._track = None
+            return _nothing(corners, reason)
+        return self._lines(corridor, corners)
+
+    def _start(self, corners: CornerPoints, prior: RowPrior | None) -> RowLines:
+        mean, covariance = _expected(prior, self._params)
+        if math.sqrt(covariance[0, 0]) > self._params.max_prior_std * mean[2]:
+            return _nothing(corners, "the row's expected place is too vague to tell it from its neighbours")
+        corridor = self._fit.acquire(corners.feet, mean, _inverse(covariance))
+        reason = self._too_little(corridor, prior, len(corners))
+        track = _Track(state=corridor.state, covariance=corridor.covariance)
+        if not reason and _other_row(track, prior, self._params):
+            reason = "the row in sight is not the row that is expected"
+        reason = reason or self._doubt(track, corridor, len(corners))
+        if reason:
+            return _nothing(corners, reason)
+        self._track = track
+        return self._lines(corridor, corners)
+
+    def _too_little(self, corridor: Corridor, prior: RowPrior | None, objects: int) -> str:
+        """Why a corridor has too little evidence to begin with, empty if it has enough."""
+        left, right = int(np.sum(corridor.sides > 0)), int(np.sum(corridor.sides < 0))
+        if min(left, right) >= 1 and left + right >= self._params.min_objects:
+            return ""
+        if prior is not None and prior.width is not None and max(left, right) >= self._params.one_side_objects:
+            return ""
+        if objects < self._params.min_objects:
+            return f"only {objects} trunk{'s' if objects > 1 else ''} or posts in sight"
+        return "the trunks and posts in sight do not form a row"
+
+    def _doubt(self, track: _Track, corridor: Corridor, objects: int) -> str:
+        """Why a corridor is not shown, empty if it is."""
+        p = self._params
+        offset_std, heading_std = np.sqrt(np.diag(track.covariance)[:2])
+        if track.unseen > p.carry:
+            return "no trunk or post in sight" if objects == 0 else "no trunk or post on the row's lines"
+        if track.doubts >= p.lost_frames:
+            return "most trunks and posts in sight do not stand on the row's lines"
+        if offset_std > p.max_offset_std:
+            return f"the row's place is only known to {offset_std:.2f} m"
+        if heading_std > math.radians(p.max_heading_std_deg):
+            return f"the row's direction is only known to {math.degrees(heading_std):.0f} deg"
+        return ""
+
+    def _lines(self, corridor: Corridor, corners: CornerPoints) -> RowLines:
+        offset, heading, width, pitch = (float(a) for a in corridor.state)
+        left, right = (self._image(offset + side * width / 2, heading, pitch) for side in (1.0, -1.0))
+        on_left = np.where(corridor.sides == 0, corners.left, corridor.sides > 0)
+        return RowLines(
+            left=left, right=right, kept=corridor.sides != 0, on_left=on_left,
+            left_seen=bool(np.any(corridor.sides > 0)), right_seen=bool(np.any(corridor.sides < 0)),
+            ground=self._ground(corridor),
+        )  # fmt: skip
+
+    def _image(self, offset: float, heading: float, pitch: float) -> Line2:
+        return image_line(self._camera, offset=offset, heading=heading, pitch=pitch)
+
+    def _ground(self, corridor: Corridor) -> GroundRow:
+        p = self._params
+        floor = np.diag((p.floor_offset**2, math.radians(p.floor_heading_deg) ** 2))
+        covariance = corridor.covariance[:2, :2] + floor
+        return GroundRow(
+            offset=float(corridor.state[0]), heading=float(corridor.state[1]), width=float(corridor.state[2]),
+            covariance=covariance, pitch=float(corridor.state[3]), left_x=corridor.x[corridor.sides > 0],
+            right_x=corridor.x[corridor.sides < 0], quality=_quality(corridor, math.sqrt(covariance[0, 0]), p),
+        )  # fmt: skip
+
+
+def _nothing(corners: CornerPoints, reason: str) -> RowLines:
+    none = np.zeros(len(corners), dtype=np.bool_)
+    return RowLines(
+        left=None, right=None, kept=none, on_left=corners.left, left_seen=False, right_seen=False, reason=reason
+    )
+
+
+def _expected(prior: RowPrior | None, p: CorridorTrackerParams) -> tuple[Floats, Floats]:
+    """Mean (4,) and covariance (4, 4) before the first picture."""
+    offset, heading = (prior.offset, prior.heading) if prior else (0.0, 0.0)
+    offset_std = prior.std if prior else p.offset_std
+    heading_std = prior.heading_std if prior else math.radians(p.heading_std_deg)
+    told = prior.width if prior else None
+    width, width_std = (p.width, p.width_std) if told is None else (told, p.told_width_std)
+    stds = np.array((offset_std, heading_std, width_std, math.radians(p.pitch_std_deg)))
+    return np.array((offset, heading, width, 0.0)), np.diag(stds**2)
+
+
+def _moved(track: _Track, motion: SE2, p: CorridorTrackerParams) -> _Track:
+    """The track seen from the new driving frame, less certain by what was driven and turned.
+
+    The pitch is that of the ground under the robot: it is mostly forgotten from one picture to the next.
+    """
+    offset, heading, width, pitch = track.state
+    across = offset + math.sin(heading) * motion.x - math.cos(heading) * motion.y
+    distance = math.hypot(motion.x, motion.y)
+    J = np.diag((1.0, 1.0, 1.0, 0.7))
+    J[0, 1] = math.cos(heading) * motion.x + math.sin(heading) * motion.y
+    covariance = J @ track.covariance @ J.T
+    turn_var = p.turn_drift_per_m**2 * distance + (p.turn_slip * motion.yaw) ** 2
+    pitch_var = (1.0 - 0.7**2) * math.radians(p.pitch_std_deg) ** 2
+    covariance += np.diag((p.drift_per_m**2 * distance, turn_var, 0.02**2 * distance, pitch_var))
+    state = np.array((across, wrap(heading - motion.yaw), width, 0.7 * pitch))
+    return _Track(state=state, covariance=covariance, unseen=track.unseen + distance, doubts=track.doubts)
+
+
+def _other_row(track: _Track, prior: RowPrior | None, p: CorridorTrackerParams) -> bool:
+    """Whether the corridor is too far from the expected one to be it. A vague prior cannot say so."""
+    if prior is None or prior.std > p.max_prior_std * track.state[2]:
+        return False
+    return bool(abs(track.state[0] - prior.offset) > p.wrong_row * track.state[2])
+
+
+def _inverse(matrix: Floats) -> Floats:
+    return np.asarray(np.linalg.inv(matrix), dtype=np.float64)
+
+
+def _quality(corridor: Corridor, offset_std: float, p: CorridorTrackerParams) -> float:
+    """0 to 1: how many objects carry the fit, on how many sides, and how certain it is."""
+    left, right = int(np.sum(corridor.sides > 0)), int(np.sum(corridor.sides < 0))
+    sides = 1.0 if left and right else 0.6 if left or right else 0.3
+    enough = min(1.0, (left + right) / 6.0) if left or right else 1.0
+    return sides * enough * min(1.0, max(0.0, 1.2 - offset_std / p.max_offset_std))

@@ -1,0 +1,36 @@
+"""What row perception asks of a detector, and what every detector does with a bad picture."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from navcore.messages import DetectedObject
+
+Image = NDArray[np.uint8]
+
+
+class Detector(Protocol):
+    """Finds trunks and posts. The chain behind it does not care how."""
+
+    def detect(self, image: Image) -> tuple[DetectedObject, ...]:
+        """Boxes in pixels of the given picture (H, W, 3), BGR, best first."""
+        ...
+
+
+def picture_fault(image: Image, *, width_px: int, height_px: int) -> str:
+    """Why a picture cannot show a row: a short sentence, empty if it can.
+
+    A picture without contrast (covered lens, no exposure, blinded by the sun) is a condition of the field.
+    """
+    if image.size == 0:
+        return "the picture is empty"
+    if image.shape != (height_px, width_px, 3) or image.dtype != np.uint8:
+        return f"the picture is not {width_px}x{height_px} BGR"
+    sample = image[::8, ::8]
+    if float(sample.std()) >= 3.0:
+        return ""
+    mean = float(sample.mean())
+    return "the picture is black" if mean < 24 else "the picture is white" if mean > 231 else "the picture is blank"

@@ -1,0 +1,117 @@
+"""The one interface of all row line fitters, and what they hand on."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from navcore.geometry.line2 import Line2
+from navcore.geometry.se2 import SE2
+from navcore.perception.corner_points import CornerPoints
+
+Floats = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RowPrior:
+    """The row that is expected, from map and pose, in the driving frame at the picture's capture.
+
+    Attributes:
+        offset, heading: of its centre line, as in `RowObservation`.
+        std: 1-sigma of `offset`, m, > 0.
+        width: corridor width, m; None if not known.
+        heading_std: 1-sigma of `heading`, rad.
+    """
+
+    offset: float
+    heading: float
+    std: float
+    width: float | None = None
+    heading_std: float = 0.09
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RowCue:
+    """What is known beside the picture.
+
+    Attributes:
+        prior: the expected row.
+        motion: pose of the driving frame in that of the previous picture; None if not known, then nothing of the
+            previous picture is used.
+    """
+
+    prior: RowPrior | None = None
+    motion: SE2 | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class GroundRow:
+    """A corridor on the ground, in the driving frame.
+
+    Attributes:
+        offset, heading, width: of the centre line, and between the lines of plants; m, rad, m.
+        covariance: (2, 2) of offset and heading.
+        pitch: how much further down than its mount says the camera looked, rad.
+        left_x, right_x: distances ahead of the driving frame's origin, along x, of the objects on either line.
+        quality: 0 to 1.
+    """
+
+    offset: float
+    heading: float
+    width: float
+    covariance: Floats
+    pitch: float
+    left_x: Floats
+    right_x: Floats
+    quality: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class RowLines:
+    """The corridor's two sides in the image.
+
+    Attributes:
+        left, right: lines directed away from the camera (v falls); None where there is none.
+        kept: (N,) which corner points carried the fit.
+        on_left: (N,) which side each of them was given to.
+        left_seen, right_seen: False where the line is carried over from earlier pictures.
+        reason: why there is no row, a short sentence; empty if both lines are there.
+        ground: the corridor, by fitters that work on the ground.
+    """
+
+    left: Line2 | None
+    right: Line2 | None
+    kept: Mask
+    on_left: Mask
+    left_seen: bool
+    right_seen: bool
+    reason: str = ""
+    ground: GroundRow | None = None
+
+
+class RowLineFitter(Protocol):
+    """From corner points to the corridor's two sides."""
+
+    def fit(self, corners: CornerPoints, cue: RowCue) -> RowLines:
+        """Fit one picture. Fitters with a memory remember it."""
+        ...
+
+    def forget(self) -> None:
+        """Start anew: the next picture does not follow the last one."""
+        ...
+
+
+def away_from_camera(line: Line2) -> Line2:
+    """The same image line, directed upwards in the image; a level line keeps its direction."""
+    return line.reversed() if -line.nx > 0.0 else line
+
+
+def missing_side(left: Line2 | None, right: Line2 | None) -> str:
+    """A short sentence for lines that are not there."""
+    if left is None and right is None:
+        return "no line of plants on either side"
+    return "no line of plants on the left" if left is None else "" if right else "no line of plants on the right"
