@@ -1,1 +1,78 @@
 """Composes every module's own parameters into one tree; a run keeps the tree it used."""
+
+from __future__ import annotations
+
+import dataclasses
+import tomllib
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, get_type_hints
+
+import msgspec
+
+from navcore.errors import ConfigError
+from navcore.maps.site_map import Datum
+from navcore.navigator import Navigator, NavigatorParams
+from navcore.perception.row_perception import RowPerceptionParams
+from navcore.vehicle import PROFILES, VehicleParams
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RobotConfig:
+    """All that is set on one robot.
+
+    Attributes:
+        vehicle: name of a profile in `vehicle.PROFILES`.
+        camera_width_px, camera_height_px: of the pictures that are looked at.
+    """
+
+    vehicle: str = "paper_a"
+    camera_width_px: int = 640
+    camera_height_px: int = 360
+    navigator: NavigatorParams = field(default_factory=NavigatorParams)
+    perception: RowPerceptionParams = field(default_factory=RowPerceptionParams)
+
+    def vehicle_params(self) -> VehicleParams:
+        """The profile. Raises ConfigError for an unknown name."""
+        if self.vehicle not in PROFILES:
+            raise ConfigError(f"There is no vehicle '{self.vehicle}'. Known are: {', '.join(PROFILES)}.")
+        return PROFILES[self.vehicle]
+
+    def new_navigator(self, datum: Datum) -> Navigator:
+        """A navigator for a site with this datum."""
+        return Navigator(datum, self.navigator, self.vehicle_params())
+
+
+def load_config(path: Path) -> RobotConfig:
+    """Read a TOML file; what it leaves out keeps its default. Raises ConfigError with the key and the reason."""
+    try:
+        tree = tomllib.loads(path.read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+        raise ConfigError(f"Cannot read the settings in {path.name}: {error}") from error
+    return config_from_tree(tree)
+
+
+def config_from_tree(tree: dict[str, Any]) -> RobotConfig:
+    """Settings from plain data; unknown keys and wrong types are refused by name."""
+    _refuse_unknown(tree, RobotConfig, "")
+    try:
+        return msgspec.convert(tree, RobotConfig)
+    except msgspec.ValidationError as error:
+        raise ConfigError(f"The settings are not usable: {error}") from error
+
+
+def config_to_tree(config: RobotConfig) -> dict[str, Any]:
+    """Plain data for the run's log."""
+    tree: dict[str, Any] = msgspec.to_builtins(config)
+    return tree
+
+
+def _refuse_unknown(tree: Any, cls: type, where: str) -> None:
+    if not isinstance(tree, dict):
+        raise ConfigError(f"'{where}' must be a table of settings.")
+    types = get_type_hints(cls)
+    for key, value in tree.items():
+        if key not in types:
+            raise ConfigError(f"Unknown setting '{where}{key}'. Known are: {', '.join(types)}.")
+        if dataclasses.is_dataclass(types[key]) and isinstance(types[key], type):
+            _refuse_unknown(value, types[key], f"{where}{key}.")

@@ -1,4 +1,4 @@
-"""The walk through the house: sense, hear, steer along the route, judge, decide. One call per tick, and no clock inside.
+"""The walk through the house: sense, advance, hear, judge, steer, decide. One call per tick, no clock inside.
 
 The robot, the simulator, the replay of a log and every test call `Navigator.step`. The same inputs give the same
 decisions, bit for bit.
@@ -84,11 +84,8 @@ class Navigator:
         at = self._position(now_ns)
         switch = self._advance(at, inputs.rows, tick_s)
         replies, request = self._hear(at, inputs.requests)
+        self._judge(at, tick_s, request)
         self._driving = self._steer(now_ns)
-        facts = self._facts(at, tick_s)
-        events = active_events(facts, self.params.events)
-        self._change_state(now_ns, events, request)
-        self._events.update(now_ns, events, facts)
         self._last_ns = now_ns
         return self._decide(now_ns, at, switch, replies, request)
 
@@ -209,6 +206,13 @@ class Navigator:
         pilot = self.pilot
         moving = self.state in (RunState.DRIVING, RunState.HOLDING)
         return bool(moving and pilot and pilot.mode in CARRIED and pilot.segment.kind is SegmentKind.ROAD)
+
+    def _judge(self, at: Position, tick_s: float, request: RequestKind | None) -> None:
+        """Look all events up, and let their effects change the mission's state."""
+        facts = self._facts(at, tick_s)
+        events = active_events(facts, self.params.events)
+        self._change_state(at.now_ns, events, request)
+        self._events.update(at.now_ns, events, facts)
 
     def _change_state(self, now_ns: int, events: tuple[Event, ...], request: RequestKind | None) -> None:
         c = Circumstances(

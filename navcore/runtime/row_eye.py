@@ -1,0 +1,51 @@
+"""Feeds row perception what it needs beside the picture: the camera, the row that is meant, the motion in between."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from navcore.geometry.se2 import SE2
+from navcore.messages import CameraName, CameraRequest, CameraView
+from navcore.perception.detector import Image
+from navcore.perception.row_lines import RowPrior
+from navcore.perception.row_perception import RowPerception
+
+LEAST_PRIOR_STD = 0.15
+
+
+class RowEye:
+    """One perception a camera; a change of camera starts anew."""
+
+    def __init__(self, perceptions: Mapping[CameraName, RowPerception]) -> None:
+        self._perceptions = perceptions
+        self._last: CameraRequest | None = None
+
+    def look(self, image: Image, stamp_ns: int, request: CameraRequest, latency_ms: float = 0.0) -> CameraView:
+        """What is seen in one picture (H, W, 3) BGR of the camera that was asked for."""
+        perception = self._perceptions[request.camera]
+        motion = self._motion(request)
+        if motion is None:
+            perception.forget()
+        self._last = request
+        return perception.process(
+            image, stamp_ns, request.camera, prior=row_prior(request), motion=motion, latency_ms=latency_ms
+        )
+
+    def _motion(self, request: CameraRequest) -> SE2 | None:
+        """`T_last_now` of base_link, None where this picture does not follow the last one."""
+        last = self._last
+        if last is None or last.camera is not request.camera:
+            return None
+        return _odom(last).inverse() @ _odom(request)
+
+
+def row_prior(request: CameraRequest) -> RowPrior | None:
+    """The expected row in the driving frame, None where none is expected."""
+    if request.offset is None or request.heading is None:
+        return None
+    std = max(request.offset_std or 0.0, LEAST_PRIOR_STD)
+    return RowPrior(offset=request.offset, heading=request.heading, std=std, width=request.width)
+
+
+def _odom(request: CameraRequest) -> SE2:
+    return SE2(request.odom_x, request.odom_y, request.odom_yaw)

@@ -1,0 +1,42 @@
+"""Eyes of the simulated robot: by projection of the truth, or by pixels."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from navcore.geometry.pinhole import PinholeCamera, robot_camera
+from navcore.messages import CameraName, CameraRequest, CameraView, SimTruth
+from navcore.perception.row_perception import RowPerception, RowPerceptionParams
+from navcore.runtime.row_eye import RowEye
+from navcore.sim.orchard import Orchard
+from navcore.sim.projected_objects import ProjectedObjects, ProjectedObjectsParams
+
+
+def robot_cameras() -> dict[CameraName, PinholeCamera]:
+    """Front and rear camera of the default robot."""
+    return {CameraName.FRONT: robot_camera(), CameraName.REAR: robot_camera(rear=True)}
+
+
+class ProjectedEye:
+    """Row perception on boxes projected from the truth, without pixels."""
+
+    def __init__(
+        self,
+        orchard: Orchard,
+        seed: int,
+        perception: RowPerceptionParams | None = None,
+        objects: ProjectedObjectsParams | None = None,
+    ) -> None:
+        rng = np.random.default_rng(seed)
+        cameras = robot_cameras()
+        faults = objects or ProjectedObjectsParams()
+        self._detectors = {name: ProjectedObjects(orchard, camera, faults, rng) for name, camera in cameras.items()}
+        params = perception or RowPerceptionParams()
+        self._eye = RowEye({n: RowPerception(c, self._detectors[n], params) for n, c in cameras.items()})
+        camera = cameras[CameraName.FRONT]
+        self._picture = rng.integers(0, 255, (camera.height_px, camera.width_px, 3), dtype=np.uint8)
+
+    def look(self, truth: SimTruth, request: CameraRequest) -> CameraView:
+        """See `lockstep.Eye`."""
+        self._detectors[request.camera].look_from(truth)
+        return self._eye.look(self._picture, truth.stamp_ns, request)
