@@ -75,11 +75,11 @@ class CorridorFit:
         scale = camera.width_px / 640 / camera.fx
         self._noise = (params.foot_u_px * scale, params.foot_v_px * scale, params.plant_std, params.curve)
 
-    def acquire(self, feet: Floats, mean: Floats, information: Floats) -> Corridor:
-        """The best corridor for feet (N, 2), pixels, over all that they allow; the prior breaks ties between rows."""
+    def acquire(self, feet: Floats, mean: Floats, information: Floats, reach: float) -> Corridor:
+        """The best corridor for feet (N, 2), pixels, over all whose offset lies within `reach` (m) of the prior's."""
         rays, used = self._rays(feet)
-        p = self._params
-        start, _ = kernels.acquire(rays[used], mean, information, self._mount, self._noise, p.lines, p.tries)
+        p, rays_used = self._params, rays[used]
+        start, _ = kernels.acquire(rays_used, mean, information, self._mount, self._noise, p.lines, p.tries, reach)
         return self._refine(start, rays, used, mean, information, 1.0)
 
     def follow(self, feet: Floats, mean: Floats, information: Floats) -> Corridor:

@@ -207,17 +207,19 @@ def hypotheses(lines: Floats, width: float, mount: Mount) -> Floats:
 
 @njit(cache=True)
 def acquire(
-    rays: Floats, mean: Floats, information: Floats, mount: Mount, noise: Noise, lines: int, tries: int
+    rays: Floats, mean: Floats, information: Floats, mount: Mount, noise: Noise, lines: int, tries: int, reach: float
 ) -> tuple[Floats, float]:
-    """The best corridor over all hypotheses, the `tries` best of which are refined; and its score."""
+    """The best corridor within `reach` of the prior's offset, the `tries` best of which are refined; its score."""
     states = hypotheses(best_lines(rays, lines, mount, noise), mean[2], mount)
     first = np.empty(len(states))
     for i in range(len(states)):
         first[i] = score(states[i], rays, mean, information, mount, noise)
+        if abs(states[i, 0] - mean[0]) > 1.3 * reach:
+            first[i] = -1e9
     best, best_score = mean.copy(), score(mean, rays, mean, information, mount, noise)
     for i in np.argsort(-first, kind="mergesort")[:tries]:
         z, _, _ = refine(states[i], rays, mean, information, mount, noise, 6, 2.0)
         value = score(z, rays, mean, information, mount, noise)
-        if value > best_score:
+        if value > best_score and abs(z[0] - mean[0]) <= reach:
             best, best_score = z, value
     return best, best_score

@@ -121,11 +121,9 @@ class CorridorTracker:
         mean, covariance = _expected(prior, self._params)
         if math.sqrt(covariance[0, 0]) > self._params.max_prior_std * mean[2]:
             return _nothing(corners, "the row's expected place is too vague to tell it from its neighbours")
-        corridor = self._fit.acquire(corners.feet, mean, _inverse(covariance))
+        corridor = self._fit.acquire(corners.feet, mean, _inverse(covariance), self._params.wrong_row * mean[2])
         reason = self._too_little(corridor, prior, len(corners))
         track = _Track(state=corridor.state, covariance=corridor.covariance)
-        if not reason and _other_row(track, prior, self._params):
-            reason = "the row in sight is not the row that is expected"
         reason = reason or self._doubt(track, corridor, len(corners))
         if reason:
             return _nothing(corners, reason)
