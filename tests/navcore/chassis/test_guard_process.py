@@ -1,0 +1,388 @@
+"""The guard as a process of its own, on a real bus, with real kills. The chassis model is the oracle.
+
+A stand-in navigator (a process too) decides at 50 Hz; the chassis model runs in this process on the other side of a
+UDP multicast bus and keeps its own record of what it was told to do.
+"""
+
+from __future__ import annotations
+
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import can
+import pytest
+
+from navcore.chassis.protocol import (
+    ChassisState,
+    GuardRequest,
+    GuardState,
+    MotionCommand,
+    decode_state,
+    encode_motion,
+    encode_request,
+)
+from navcore.chassis.scout_can import Frame
+from navcore.sim.scout_ecu import ScoutEcu
+from navcore.sim.vehicle_dynamics import WheelState
+from navcore.transport.endpoints import Endpoints
+from navcore.transport.stop_client import StopClient
+
+MS = 1_000_000
+DEADLINE_S = 15.0
+GROUP = "239.74.163.2"
+STOPPED = (0.0, 0.0)
+
+# Drives at 0.5 m/s. `frozen` hands in its first decision for ever, freshly numbered and stamped.
+NAVIGATOR = """
+import socket, sys, time
+from navcore.chassis.protocol import *
+command, state, frozen = sys.argv[1], sys.argv[2], sys.argv[3] == "frozen"
+inlet = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM); inlet.bind(state); inlet.settimeout(0.02)
+outlet = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM); outlet.connect(command)
+seq, deadline_ns, armed = 0, None, False
+while True:
+    try:
+        report = decode_state(inlet.recv(512))
+    except TimeoutError:
+        continue
+    now_ns = time.monotonic_ns()
+    if report.guard is GuardState.SILENT and not armed:
+        outlet.send(encode_request(GuardRequest.ARM, now_ns))
+    if report.guard is not GuardState.ARMED:
+        continue
+    armed, seq = True, seq + 1
+    if deadline_ns is None or not frozen:
+        deadline_ns = now_ns + (1_000_000_000 if frozen else 300_000_000)
+    motion = MotionCommand(v=0.5, omega=0.0, seq=seq, stamp_ns=now_ns, deadline_ns=deadline_ns)
+    outlet.send(encode_motion(motion))
+"""
+
+INTRUDER = """
+import socket, sys, time
+from navcore.chassis.protocol import *
+outlet = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM); outlet.connect(sys.argv[1])
+for seq in range(10):
+    now_ns = time.monotonic_ns()
+    motion = MotionCommand(v=0.5, omega=0.0, seq=seq, stamp_ns=now_ns, deadline_ns=now_ns + 200_000_000)
+    outlet.send(encode_motion(motion))
+"""
+
+
+def free_port() -> int:
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+        probe.bind(("", 0))
+        return int(probe.getsockname()[1])
+
+
+def wait_for(condition: Callable[[], bool], what: str) -> None:
+    deadline = time.monotonic() + DEADLINE_S
+    while not condition():
+        assert time.monotonic() < deadline, f"{what} did not happen within {DEADLINE_S} s"
+        time.sleep(0.005)
+
+
+class ChassisModel:
+    """The chassis on its bus, in a thread. `record` holds (time in ns, target) of every change."""
+
+    def __init__(self, port: int) -> None:
+        self.ecu = ScoutEcu()
+        self.record: list[tuple[int, tuple[float, float]]] = [(time.monotonic_ns(), STOPPED)]
+        self.motion_frames = 0
+        self.deaf = False
+        self._v = 0.0
+        self._bus = can.Bus(interface="udp_multicast", channel=GROUP, port=port, hop_limit=0, fd=False)
+        self._ended = threading.Event()
+        self._thread = threading.Thread(target=self._run)
+        self._thread.start()
+
+    @property
+    def target(self) -> tuple[float, float]:
+        return self.record[-1][1]
+
+    def stopped_at_ns(self) -> int:
+        return self.record[-1][0]
+
+    def close(self) -> None:
+        self._ended.set()
+        self._thread.join()
+        self._bus.shutdown()
+
+    def _run(self) -> None:
+        while not self._ended.is_set():
+            message = self._bus.recv(0.005)
+            now_ns = time.monotonic_ns()
+            if message is not None and not self.deaf:
+                self.motion_frames += message.arbitration_id == 0x111
+                self.ecu.receive(Frame(message.arbitration_id, bytes(message.data)), now_ns)
+            target = self.ecu.target(now_ns)
+            if target != self.target:
+                self.record.append((now_ns, target))
+            self._v += (target[0] - self._v) * 0.05
+            for frame in self.ecu.feedback(now_ns, self._wheels(now_ns)):
+                self._bus.send(can.Message(arbitration_id=frame.can_id, data=frame.data, is_extended_id=False))
+
+    def _wheels(self, now_ns: int) -> WheelState:
+        v = self._v if abs(self._v) > 1e-3 else 0.0
+        return WheelState(stamp_ns=now_ns, left=v, right=v, left_m=0.0, right_m=0.0, v=v, omega=0.0)
+
+
+class Rig:
+    """Chassis model, guard process and stand-in navigator around one directory of sockets."""
+
+    def __init__(self, directory: Path) -> None:
+        self.endpoints = Endpoints(directory)
+        self.endpoints.prepare()
+        self.port = free_port()
+        self.chassis = ChassisModel(self.port)
+        self.guard = self.start_guard()
+        self.navigator: subprocess.Popen[bytes] | None = None
+
+    def start_guard(self) -> subprocess.Popen[bytes]:
+        guard = self._start("-m", "navcore.chassis.guard_process", *self.guard_arguments())
+        wait_for(self.endpoints.guard_stop.exists, "the guard's start")
+        return guard
+
+    def guard_arguments(self) -> list[str]:
+        paths = self.endpoints
+        sockets = ["--command", paths.guard_command, "--stop", paths.guard_stop, "--state", paths.chassis_state]
+        options = ["--option", f"port={self.port}", "--option", "hop_limit=0", "--option", "fd=0"]
+        return [*map(str, sockets), "--interface", "udp_multicast", "--channel", GROUP, *options]
+
+    def drive(self, kind: str = "fresh") -> subprocess.Popen[bytes]:
+        """A navigator that arms and drives; returns once the chassis has been told to move."""
+        self.endpoints.chassis_state.unlink(missing_ok=True)
+        paths = (str(self.endpoints.guard_command), str(self.endpoints.chassis_state))
+        self.navigator = self._start("-c", NAVIGATOR, *paths, kind)
+        wait_for(lambda: self.chassis.target[0] > 0.3, "driving")
+        return self.navigator
+
+    def wait_for_stop(self) -> None:
+        wait_for(lambda: self.chassis.target == STOPPED, "the stop")
+
+    def close(self) -> None:
+        for process in (self.navigator, self.guard):
+            if process is not None:
+                process.send_signal(signal.SIGCONT)
+                process.kill()
+                process.wait()
+        self.chassis.close()
+
+    def _start(self, *arguments: str) -> subprocess.Popen[bytes]:
+        return subprocess.Popen([sys.executable, *arguments])
+
+
+class Listener:
+    """Takes the navigator's place at the guard's outlet."""
+
+    def __init__(self, endpoints: Endpoints) -> None:
+        endpoints.chassis_state.unlink(missing_ok=True)
+        self._socket = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
+        self._socket.bind(str(endpoints.chassis_state))
+        self._socket.settimeout(DEADLINE_S)
+        self._command = str(endpoints.guard_command)
+
+    def hear(self) -> ChassisState:
+        state = decode_state(self._socket.recv(512))
+        assert state is not None
+        return state
+
+    def wait_for_guard(self, guard: GuardState) -> ChassisState:
+        states: list[ChassisState] = []
+
+        def reached() -> bool:
+            states.append(self.hear())
+            return states[-1].guard is guard
+
+        wait_for(reached, f"the guard being {guard.name}")
+        return states[-1]
+
+    def send(self, datagram: bytes) -> None:
+        self._socket.sendto(datagram, self._command)
+
+    def ask(self, request: GuardRequest) -> None:
+        self.send(encode_request(request, time.monotonic_ns()))
+
+    def drive(self, v: float) -> None:
+        now_ns = time.monotonic_ns()
+        self.send(
+            encode_motion(MotionCommand(v=v, omega=0.0, seq=now_ns, stamp_ns=now_ns, deadline_ns=now_ns + 200 * MS))
+        )
+
+    def close(self) -> None:
+        self._socket.close()
+
+
+@pytest.fixture
+def rig() -> Iterator[Rig]:
+    with tempfile.TemporaryDirectory(prefix="rp") as directory:
+        rig = Rig(Path(directory))
+        try:
+            yield rig
+        finally:
+            rig.close()
+
+
+def stays_stopped(rig: Rig, frames: int = 20) -> bool:
+    """True if the wheels stay still while the guard has told its state that many times."""
+    listener = Listener(rig.endpoints)
+    told = [listener.hear() for _ in range(frames)]
+    listener.close()
+    return len(told) == frames and rig.chassis.target == STOPPED
+
+
+def test_1_a_killed_navigator_stops_the_robot_within_half_a_second_for_good(rig: Rig) -> None:
+    navigator = rig.drive()
+    killed_ns = time.monotonic_ns()
+    navigator.kill()
+    rig.wait_for_stop()
+    assert rig.chassis.stopped_at_ns() - killed_ns <= 500 * MS
+    assert stays_stopped(rig)
+
+
+def test_1_a_navigator_that_was_restarted_does_not_move_a_latched_robot(rig: Rig) -> None:
+    rig.drive().kill()
+    rig.wait_for_stop()
+    again = Listener(rig.endpoints)
+    for _ in range(20):
+        assert again.hear().guard is GuardState.LATCHED
+        again.ask(GuardRequest.ARM)
+        again.drive(0.5)
+    again.close()
+    assert rig.chassis.target == STOPPED
+
+
+def test_2_a_navigator_that_hangs_stops_the_robot_and_does_not_go_on_when_it_wakes(rig: Rig) -> None:
+    navigator = rig.drive()
+    hung_ns = time.monotonic_ns()
+    navigator.send_signal(signal.SIGSTOP)
+    rig.wait_for_stop()
+    assert rig.chassis.stopped_at_ns() - hung_ns <= 500 * MS
+    changes = len(rig.chassis.record)
+    navigator.send_signal(signal.SIGCONT)
+    with StopClient(rig.endpoints) as client:  # the guard answers only after all that it was sent before
+        client.stop(timeout_s=DEADLINE_S)
+    assert len(rig.chassis.record) == changes
+
+
+def test_3_a_navigator_that_repeats_its_first_decision_is_stopped(rig: Rig) -> None:
+    rig.drive("frozen")
+    rig.wait_for_stop()
+    listener = Listener(rig.endpoints)
+    state = listener.wait_for_guard(GuardState.LATCHED)
+    listener.close()
+    assert "deadline" in state.guard_reason or "too old" in state.guard_reason
+
+
+def test_6_a_killed_guard_leaves_a_robot_that_stops_by_itself(rig: Rig) -> None:
+    rig.drive()
+    killed_ns = time.monotonic_ns()
+    rig.guard.kill()
+    rig.guard.wait()
+    rig.wait_for_stop()
+    assert rig.chassis.stopped_at_ns() - killed_ns <= 600 * MS  # the chassis' own 500 ms and two steps of the model
+
+
+def test_6_a_restarted_guard_moves_nothing(rig: Rig) -> None:
+    rig.drive()
+    rig.guard.kill()
+    rig.guard.wait()
+    rig.wait_for_stop()
+    assert rig.navigator is not None
+    rig.navigator.kill()
+    rig.navigator.wait()
+    rig.endpoints.guard_stop.unlink()
+    before = rig.chassis.motion_frames
+    rig.guard = rig.start_guard()
+    assert stays_stopped(rig)
+    assert rig.chassis.motion_frames == before
+
+
+def test_2_a_guard_that_hung_does_not_obey_what_waited_for_it(rig: Rig) -> None:
+    rig.drive()
+    rig.guard.send_signal(signal.SIGSTOP)
+    rig.wait_for_stop()
+    changes = len(rig.chassis.record)
+    rig.guard.send_signal(signal.SIGCONT)
+    assert rig.navigator is not None
+    rig.navigator.kill()
+    rig.navigator.wait()
+    listener = Listener(rig.endpoints)
+    listener.wait_for_guard(GuardState.LATCHED)
+    listener.close()
+    assert len(rig.chassis.record) == changes
+
+
+def test_8_a_bus_that_falls_silent_latches_and_stays_so_when_it_returns(rig: Rig) -> None:
+    rig.drive()
+    rig.chassis.close()
+    listener = Listener(rig.endpoints)
+    assert "0x221" in listener.wait_for_guard(GuardState.LATCHED).guard_reason
+    rig.chassis = ChassisModel(rig.port)
+    heard = listener.hear()
+    wait_for(lambda: listener.hear().stamp_ns > heard.stamp_ns, "the chassis' return")
+    listener.close()
+    assert stays_stopped(rig)
+
+
+def test_stop_works_past_a_busy_navigator_and_is_confirmed(rig: Rig) -> None:
+    rig.drive()
+    with StopClient(rig.endpoints) as client:
+        client.stop(timeout_s=DEADLINE_S)
+    rig.wait_for_stop()
+    assert rig.navigator is not None
+    assert rig.navigator.poll() is None
+    assert stays_stopped(rig)
+
+
+def test_a_command_of_a_process_that_did_not_arm_moves_nothing(rig: Rig) -> None:
+    listener = Listener(rig.endpoints)
+    wait_for(lambda: listener.hear().system_stamp_ns > 0, "the chassis' first report")
+    listener.ask(GuardRequest.ARM)
+    listener.wait_for_guard(GuardState.ARMED)
+    subprocess.run([sys.executable, "-c", INTRUDER, str(rig.endpoints.guard_command)], check=True)
+    state = listener.wait_for_guard(GuardState.LATCHED)
+    listener.close()
+    assert state.accepted_seq == -1
+    assert {target for _, target in rig.chassis.record} == {STOPPED}
+
+
+def test_sockets_of_the_guard_are_private(rig: Rig) -> None:
+    for path in (rig.endpoints.guard_command, rig.endpoints.guard_stop):
+        assert path.stat().st_mode & 0o777 == 0o600
+
+
+def test_a_second_guard_on_the_same_bus_is_refused(rig: Rig) -> None:
+    wait_for(rig.endpoints.guard_stop.exists, "the guard's start")
+    second = subprocess.run(
+        [sys.executable, "-m", "navcore.chassis.guard_process", *rig.guard_arguments()],
+        capture_output=True, text=True, timeout=DEADLINE_S, check=False,
+    )  # fmt: skip
+    assert second.returncode != 0
+    assert "Another guard already holds" in second.stderr
+    assert rig.guard.poll() is None
+
+
+def test_a_guard_that_is_asked_to_end_leaves_a_standing_robot(rig: Rig) -> None:
+    rig.drive()
+    rig.guard.terminate()
+    rig.wait_for_stop()
+    assert rig.guard.wait(DEADLINE_S) == 0
+
+
+def test_nonsense_on_the_sockets_changes_nothing(rig: Rig) -> None:
+    rig.drive()
+    outsider = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
+    for size in (0, 1, 44, 300):
+        for path in (rig.endpoints.guard_command, rig.endpoints.guard_stop):
+            outsider.sendto(b"\xff" * size, str(path))
+    outsider.close()
+    frames = rig.chassis.motion_frames
+    wait_for(lambda: rig.chassis.motion_frames > frames + 10, "driving on")
+    assert rig.chassis.target[0] > 0.3
