@@ -61,7 +61,8 @@ def target_from_path(
     """
     hit = path.project(T_map_driving.x, T_map_driving.y, near_s)
     s0, s1 = hit.s - BEHIND, hit.s + hit.beyond + AHEAD
-    inner = path.points[(path.s > s0 + 1e-6) & (path.s < s1 - 1e-6)]
+    first, last = np.searchsorted(path.s, (s0 + 1e-6, s1 - 1e-6))
+    inner = path.points[first:last]
     points = np.vstack((path.at(s0), inner, path.at(s1)))
     return TargetLine(
         source=source, stamp_ns=stamp_ns, max_age_ns=max_age_ns,
