@@ -448,3 +448,36 @@ class SimTruth:
     pitch: float
     v: float
     omega: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RecorderStatus:
+    """Whether the run is being written down. Driving goes on without.
+
+    Attributes:
+        problem: why nothing is written, empty when all is well or nothing was asked for.
+    """
+
+    stamp_ns: int
+    recording: bool
+    run_id: str | None
+    size_bytes: int
+    problem: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NavPrelude:
+    """All that the navigator consumed before the run, since it was new: replay begins with it.
+
+    Attributes:
+        config: settings of the robot as JSON.
+        datum: (lat_deg, lon_deg, height_m) of the site.
+        complete: False if there was too much to keep; then the run cannot be replayed exactly.
+    """
+
+    stamp_ns: int
+    run_id: str
+    config: str
+    datum: tuple[float, float, float]
+    complete: bool
+    inputs: tuple[NavInputs, ...]

@@ -120,10 +120,18 @@ SIM_TRUTH = Topic(
     name="sim/truth", type=m.SimTruth, publisher="world", rate_hz=50, max_age_s=0.2, logged=True, shown=False
 )
 
+RECORDER_STATUS = Topic(
+    name="recorder/status", type=m.RecorderStatus, publisher="recorder", rate_hz=1, max_age_s=3.0, logged=False,
+    shown=True,
+)  # fmt: skip
+NAV_PRELUDE = Topic(
+    name="nav/prelude", type=m.NavPrelude, publisher="navigator", rate_hz=0, max_age_s=None, logged=True, shown=False
+)
+
 TOPICS: dict[str, Topic] = {
     t.name: t
     for t in (
         NAV_INPUTS, NAV_DECISION, NAV_STATUS, NAV_SWITCH, NAV_PLAN, CAMERA_REQUEST, GNSS_FIX, CHASSIS_STATE,
-        IMU_SAMPLE, ROW_OBSERVATION, CAMERA_VIEW, SIM_TRUTH,
+        IMU_SAMPLE, ROW_OBSERVATION, CAMERA_VIEW, SIM_TRUTH, RECORDER_STATUS, NAV_PRELUDE,
     )
 }  # fmt: skip
