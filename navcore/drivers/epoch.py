@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 
 from navcore.drivers.epoch_part import EpochPart
+from navcore.geometry.angles import wrap
 from navcore.messages import FixQuality, GnssFix
 
 SAME_PLACE_DEG = 2e-5
@@ -106,7 +107,7 @@ class Epoch:
         if chosen is None or chosen.heading_deg is None:
             return None, None
         std_deg = chosen.heading_std_deg
-        yaw = _wrapped(yaw_of_bearing(chosen.heading_deg) - mount.yaw_rad)
+        yaw = wrap(yaw_of_bearing(chosen.heading_deg) - mount.yaw_rad)
         return yaw, None if std_deg is None else math.radians(std_deg)
 
 
@@ -119,13 +120,9 @@ def _same_place(part: EpochPart, best: EpochPart) -> bool:
 
 def yaw_of_bearing(bearing_deg: float) -> float:
     """Degrees clockwise from north -> rad counter-clockwise from east (REP 103)."""
-    return _wrapped(math.radians(90.0 - bearing_deg))
+    return wrap(math.radians(90.0 - bearing_deg))
 
 
 def bearing_of_yaw(yaw_rad: float) -> float:
     """Inverse of `yaw_of_bearing`, in [0, 360)."""
     return (90.0 - math.degrees(yaw_rad)) % 360.0
-
-
-def _wrapped(angle: float) -> float:
-    return math.pi - (math.pi - angle) % (2.0 * math.pi)

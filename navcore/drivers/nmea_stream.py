@@ -20,7 +20,8 @@ from navcore.drivers.vendor_sentences import VENDOR_READERS
 from navcore.errors import SentenceError
 from navcore.messages import GnssFix
 
-REPEATED_IN_EPOCH = frozenset({"GSA"})
+SEVERAL = frozenset({"GSA"})
+"""Kinds of which one epoch has more than one."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -146,7 +147,9 @@ class NmeaStream:
         return None if reader is None else reader(fields)
 
     def _take(self, part: EpochPart, line: Line, arrival_ns: int) -> Iterator[GnssFix]:
-        if self._came_too_late(part):
+        if self._belongs_to_closed(part):
+            if self._closed_early is not None and part.kind in self._closed_early.parts and part.kind not in SEVERAL:
+                self._refuse(Refused.DUPLICATE, line, arrival_ns)
             return
         if self._epoch is not None and self._starts_next(part, self._epoch):
             yield from self._close()
@@ -157,22 +160,23 @@ class NmeaStream:
             self._closed_early = self._epoch
             yield from self._close()
 
-    def _came_too_late(self, part: EpochPart) -> bool:
-        """A part of an epoch that was handed out already: learn that it does not end where we thought."""
+    def _belongs_to_closed(self, part: EpochPart) -> bool:
+        """Whether an epoch that was handed out already should have had this: learn that it ends elsewhere."""
         done = self._closed_early
         if done is None or self._epoch is not None:
             return False
-        late = part.clock_ns == done.clock_ns if part.clock_ns is not None else part.kind not in done.parts
-        if late and part.kind not in REPEATED_IN_EPOCH:
-            self._closing.forget(done.last_kind)
-        if late and part.day is not None and part.clock_ns is not None:
+        if part.clock_ns is not None and part.day is not None and part.clock_ns == done.clock_ns:
             self._calendar.learn(part.day, part.clock_ns)
-        return late or part.kind in REPEATED_IN_EPOCH
+        same_time = part.clock_ns is not None and part.clock_ns == done.clock_ns
+        untimed_and_new = part.clock_ns is None and part.kind not in done.parts
+        if (same_time or untimed_and_new) and part.kind not in done.parts:
+            self._closing.forget(done.last_kind)
+        return same_time or untimed_and_new or part.kind in SEVERAL
 
     def _starts_next(self, part: EpochPart, epoch: Epoch) -> bool:
         if part.clock_ns is not None and epoch.clock_ns is not None:
             return part.clock_ns != epoch.clock_ns
-        return part.kind in epoch.parts and part.kind not in REPEATED_IN_EPOCH
+        return part.kind in epoch.parts and part.kind not in SEVERAL
 
     def _close(self) -> Iterator[GnssFix]:
         epoch, self._epoch = self._epoch, None
