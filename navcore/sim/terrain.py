@@ -1,0 +1,179 @@
+"""The ground: long slope, bumps, ruts and what it is made of."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import IntEnum
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.ndimage import gaussian_filter
+from scipy.spatial import cKDTree
+
+from navcore.maps.site_map import Point, SiteMap
+
+Floats = NDArray[np.float64]
+Bytes = NDArray[np.uint8]
+
+_MARGIN_M = 12.0
+
+
+class Surface(IntEnum):
+    """What the wheels stand on."""
+
+    DIRT = 0
+    GRASS = 1
+    WET = 2
+    SOIL = 3
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SurfaceTraits:
+    """How a surface treats a skid-steered robot. Chosen, not measured: fit them to logs of a real robot.
+
+    Attributes:
+        skid: scale of what the effective track exceeds the true track by.
+        slip, slip_std: mean and 1-sigma of the longitudinal slip, share of the wheel's speed.
+        roughness: scale of the vibration.
+    """
+
+    skid: float
+    slip: float
+    slip_std: float
+    roughness: float
+
+
+SURFACE_TRAITS: dict[Surface, SurfaceTraits] = {
+    Surface.DIRT: SurfaceTraits(skid=0.85, slip=0.02, slip_std=0.010, roughness=1.0),
+    Surface.GRASS: SurfaceTraits(skid=1.0, slip=0.04, slip_std=0.020, roughness=0.8),
+    Surface.WET: SurfaceTraits(skid=1.2, slip=0.12, slip_std=0.060, roughness=0.7),
+    Surface.SOIL: SurfaceTraits(skid=1.15, slip=0.07, slip_std=0.040, roughness=1.3),
+}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TerrainParams:
+    """Levels of the ground's unkindness; design of the simulator: slope, ruts, +-2 deg of roll and pitch.
+
+    Attributes:
+        slope_max_deg: of the whole site, drawn from 0 to this, any direction; 0 to 15.
+        tilt_std_deg: 1-sigma of the bumps' slope over a robot's length, 0 to 3 (so about +-2 deg).
+        rut_depth: of the two wheel ruts along lanes and rows, m, 0 to 0.1.
+        rut_track: distance between the two ruts, m, 0.5 to 2.
+        wet_share, soil_share: share of the ground off the lanes, 0 to 0.5 each; the rest is grass.
+        cell: of the height grid, m, 0.1 to 0.5.
+    """
+
+    slope_max_deg: float = 1.5
+    tilt_std_deg: float = 0.8
+    rut_depth: float = 0.03
+    rut_track: float = 1.1
+    wet_share: float = 0.12
+    soil_share: float = 0.20
+    cell: float = 0.2
+
+
+class Terrain:
+    """Heights and surfaces on a grid over the site; the same seed gives the same ground, bit for bit."""
+
+    def __init__(self, site: SiteMap, params: TerrainParams, rng: np.random.Generator) -> None:
+        xs, ys = _grid(site, params.cell)
+        self._x0, self._y0, self._inverse_cell = float(xs[0]), float(ys[0]), 1.0 / params.cell
+        self._columns, self._row_count = len(xs), len(ys)
+        centres = np.column_stack([a.ravel() for a in np.meshgrid(xs, ys)])
+        heights = _bumps((len(ys), len(xs)), params, rng) + _plane(centres, params, rng).reshape(len(ys), len(xs))
+        heights -= _ruts(centres, site, params).reshape(heights.shape)
+        self._heights = np.ascontiguousarray(heights.ravel()).data
+        self._surfaces = _surfaces(centres, site, heights.shape, params, rng).data
+
+    def height(self, x: float, y: float) -> float:
+        """Height of the ground above the plane z = 0, m, bilinear; outside the grid its edge goes on."""
+        fx = min(max((x - self._x0) * self._inverse_cell, 0.0), self._columns - 1.001)
+        fy = min(max((y - self._y0) * self._inverse_cell, 0.0), self._row_count - 1.001)
+        column, row = int(fx), int(fy)
+        fx, fy, at = fx - column, fy - row, row * self._columns + column
+        h, below = self._heights, at + self._columns
+        return (1 - fy) * ((1 - fx) * h[at] + fx * h[at + 1]) + fy * ((1 - fx) * h[below] + fx * h[below + 1])
+
+    def surface(self, x: float, y: float) -> Surface:
+        """What the ground is made of there."""
+        column = min(max(int((x - self._x0) * self._inverse_cell), 0), self._columns - 1)
+        row = min(max(int((y - self._y0) * self._inverse_cell), 0), self._row_count - 1)
+        return Surface(self._surfaces[row * self._columns + column])
+
+    def tilt(self, x: float, y: float, yaw: float, wheelbase: float, track: float) -> tuple[float, float]:
+        """Roll and pitch (rad, REP 103: nose down is positive) of a robot whose four wheels stand on the ground."""
+        c, s = math.cos(yaw), math.sin(yaw)
+        ax, ay, bx, by = c * wheelbase / 2, s * wheelbase / 2, -s * track / 2, c * track / 2
+        front_left, front_right = self.height(x + ax + bx, y + ay + by), self.height(x + ax - bx, y + ay - by)
+        rear_left, rear_right = self.height(x - ax + bx, y - ay + by), self.height(x - ax - bx, y - ay - by)
+        roll = (front_left + rear_left - front_right - rear_right) / (2 * track)
+        pitch = (rear_left + rear_right - front_left - front_right) / (2 * wheelbase)
+        return math.atan(roll), math.atan(pitch)
+
+
+def _grid(site: SiteMap, cell: float) -> tuple[Floats, Floats]:
+    """Coordinates of the grid's columns and rows: the site's extent and a margin."""
+    spots = [p for lane in site.lanes for p in lane.points] + [p for r in site.rows for p in (r.start, r.end)]
+    spots += [p for zone in site.zones for p in zone.polygon]
+    spots += [(site.warehouse.x, site.warehouse.y)] if site.warehouse else [(0.0, 0.0)]
+    low, high = np.min(spots, axis=0) - _MARGIN_M, np.max(spots, axis=0) + _MARGIN_M
+    return np.arange(low[0], high[0], cell), np.arange(low[1], high[1], cell)
+
+
+def _along(line: tuple[Point, ...]) -> Floats:
+    """Points (N, 2) every 0.1 m of a polyline."""
+    pieces = []
+    for a, b in pairwise(line):
+        count = max(math.ceil(math.dist(a, b) / 0.1), 1)
+        pieces.append(np.linspace(a, b, count + 1))
+    return np.concatenate(pieces)
+
+
+def _away(centres: Floats, lines: Sequence[tuple[Point, ...]], limit: float) -> Floats:
+    """Distance (N,) to the nearest of the polylines, infinite beyond `limit`."""
+    if not lines:
+        return np.full(len(centres), np.inf)
+    return np.asarray(
+        cKDTree(np.concatenate([_along(a) for a in lines])).query(centres, distance_upper_bound=limit)[0]
+    )
+
+
+def _bumps(shape: tuple[int, int], params: TerrainParams, rng: np.random.Generator) -> Floats:
+    """Smooth random heights with the wanted 1-sigma of slope over 0.7 m, about a robot's wheelbase."""
+    total = np.zeros(shape)
+    for length, weight in ((0.35, 0.10), (1.0, 0.35), (3.0, 1.0)):
+        layer = gaussian_filter(rng.standard_normal(shape), length / params.cell, truncate=3.0)
+        total += weight * length * layer / layer.std()
+    step = max(round(0.7 / params.cell), 1)
+    slope = (total[:, step:] - total[:, :-step]) / (step * params.cell)
+    return np.asarray(total * math.tan(math.radians(params.tilt_std_deg)) / slope.std())
+
+
+def _plane(centres: Floats, params: TerrainParams, rng: np.random.Generator) -> Floats:
+    slope, direction = math.tan(math.radians(rng.uniform(0.0, params.slope_max_deg))), rng.uniform(-math.pi, math.pi)
+    return np.asarray(slope * (centres @ (math.cos(direction), math.sin(direction))))
+
+
+def _ruts(centres: Floats, site: SiteMap, params: TerrainParams) -> Floats:
+    """Depth of the ruts (N,): two troughs of 0.12 m half width beside the middle of every lane and row."""
+    ways = [lane.points for lane in site.lanes] + [(row.start, row.end) for row in site.rows]
+    beside = _away(centres, ways, params.rut_track / 2 + 0.5) - params.rut_track / 2
+    return np.asarray(params.rut_depth * np.exp(-((beside / 0.12) ** 2)))
+
+
+def _surfaces(
+    centres: Floats, site: SiteMap, shape: tuple[int, int], params: TerrainParams, rng: np.random.Generator
+) -> Bytes:
+    """Dirt on the lanes, elsewhere patches of a few metres."""
+    patches = gaussian_filter(rng.standard_normal(shape), 1.5 / params.cell, truncate=3.0).ravel()
+    wet, soil = np.quantile(patches, [params.wet_share, 1.0 - params.soil_share])
+    kinds = np.full(len(centres), Surface.GRASS, dtype=np.uint8)
+    kinds[patches < wet] = Surface.WET
+    kinds[patches > soil] = Surface.SOIL
+    for lane in site.lanes:
+        kinds[np.isfinite(_away(centres, [lane.points], lane.width / 2))] = Surface.DIRT
+    return kinds

@@ -1,0 +1,218 @@
+"""The simulated world: one robot on a true site, with everything unkind on."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from navcore.errors import ContractError, InputError, NotFiniteError
+from navcore.geometry.pinhole import rotation_from_rpy
+from navcore.maps.site_map import SiteMap
+from navcore.messages import ImuSample, SimTruth
+from navcore.sim.canopy import Canopy, CanopyParams
+from navcore.sim.contacts import Contact, ContactDetector
+from navcore.sim.gnss_receiver import AntennaState, GnssReceiver, GnssReceiverParams
+from navcore.sim.imu import Imu, ImuParams
+from navcore.sim.map_error import MapErrorParams, perturb
+from navcore.sim.orchard import Orchard, OrchardParams, build_orchard
+from navcore.sim.terrain import SURFACE_TRAITS, Surface, Terrain, TerrainParams
+from navcore.sim.vehicle_dynamics import VehicleDynamics, VehicleDynamicsParams, WheelState
+from navcore.vehicle import VehicleParams
+
+STEP_NS = 5_000_000
+_IMU_STEPS = 2
+_CONTACT_STEPS = 4
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WorldParams:
+    """One world. The defaults are the unkind levels that every score is measured at.
+
+    Attributes:
+        seed: of everything random; it also replaces the orchard's own seed.
+        start: (x, y, yaw) of the robot in the true world; None parks it at the warehouse, not quite as drawn.
+        parking_std_m, parking_std_deg: 1-sigma of that.
+        payload: on the robot, kg.
+        orchard, map_error, terrain, dynamics, imu, canopy, gnss: levels of each part.
+    """
+
+    seed: int = 1
+    start: tuple[float, float, float] | None = None
+    parking_std_m: float = 0.10
+    parking_std_deg: float = 2.0
+    payload: float = 30.0
+    orchard: OrchardParams = field(default_factory=OrchardParams)
+    map_error: MapErrorParams = field(default_factory=MapErrorParams)
+    terrain: TerrainParams = field(default_factory=TerrainParams)
+    dynamics: VehicleDynamicsParams = field(default_factory=VehicleDynamicsParams)
+    imu: ImuParams = field(default_factory=ImuParams)
+    canopy: CanopyParams = field(default_factory=CanopyParams)
+    gnss: GnssReceiverParams = field(default_factory=GnssReceiverParams)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WorldFaults:
+    """Faults that a test can switch on at any instant, by replacing `World.faults`.
+
+    Attributes:
+        gnss_silent: the receiver sends nothing. gnss_frozen: fresh times, old position.
+        imu_silent, imu_frozen: likewise.
+        wheels_frozen: the chassis reports its last wheel state with fresh stamps.
+        stuck: the wheels turn and the robot stays.
+        drive_gain: the chassis drives so many times what it was told.
+    """
+
+    gnss_silent: bool = False
+    gnss_frozen: bool = False
+    imu_silent: bool = False
+    imu_frozen: bool = False
+    wheels_frozen: bool = False
+    stuck: bool = False
+    drive_gain: float = 1.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WorldOutput:
+    """What the world gives up to an instant.
+
+    Attributes:
+        truth: never an input of the navigator.
+        wheels: as the chassis measures them now.
+        imu: samples that have arrived since the last call, oldest first.
+        nmea: bytes that have arrived since the last call.
+        contacts: things touched since the last call.
+    """
+
+    truth: SimTruth
+    wheels: WheelState
+    imu: tuple[ImuSample, ...]
+    nmea: bytes
+    contacts: tuple[Contact, ...]
+
+
+class World:
+    """The true site and the robot on it. Same arguments and same calls: the same outputs, bit for bit.
+
+    Attributes:
+        site: the true site, perturbed from the drawn one. orchard: what stands on it.
+        faults: what is broken now.
+    """
+
+    def __init__(self, site: SiteMap, vehicle: VehicleParams, params: WorldParams, start_ns: int = 0) -> None:
+        # One generator per part: switching one part off leaves all others as they were.
+        streams = np.random.SeedSequence(params.seed).spawn(6)
+        map_rng, ground_rng, drive_rng, imu_rng, gnss_rng, park_rng = map(np.random.default_rng, streams)
+        self._vehicle, self._start_ns, self._now_ns, self._steps = vehicle, start_ns, start_ns, 0
+        self.site = perturb(site, params.map_error, map_rng)
+        self.orchard: Orchard = build_orchard(self.site, replace(params.orchard, seed=params.seed))
+        self.faults = WorldFaults()
+        self._terrain = Terrain(self.site, params.terrain, ground_rng)
+        pose = _parked(self.site, params, park_rng)
+        self._drive = VehicleDynamics(vehicle, params.dynamics, params.payload, pose, drive_rng)
+        canopy = Canopy(self.orchard, params.canopy, params.seed)
+        self._gnss = GnssReceiver(site.datum, canopy, params.gnss, gnss_rng)
+        self._detector = ContactDetector(self.site, self.orchard, vehicle)
+        self._ground = self._feel_ground()
+        self._imu = Imu(params.imu, *self._ground[:2], imu_rng)
+        self._imu_latency_ns = round(params.imu.latency_s * 1e9)
+        self._acceleration = 0.0
+        self._imu_sent: list[ImuSample] = []
+        self._contacts: list[Contact] = []
+        self._wheels = self._drive.wheels(start_ns)
+
+    def advance(self, now_ns: int, v: float, omega: float) -> WorldOutput:
+        """Run to `now_ns` with the chassis' target set to (v, omega) from the last instant on.
+
+        Raises NotFiniteError for a target that is no number and ContractError when time runs backwards.
+        """
+        if not (math.isfinite(v) and math.isfinite(omega)):
+            raise NotFiniteError("The chassis' target must be finite numbers.")
+        if now_ns < self._now_ns:
+            raise ContractError("The world cannot run backwards.")
+        self._drive.command(self._now_ns, v * self.faults.drive_gain, omega * self.faults.drive_gain)
+        while self._now_ns + STEP_NS <= now_ns:
+            self._step()
+        return self._output(now_ns)
+
+    def _step(self) -> None:
+        self._now_ns += STEP_NS
+        self._steps += 1
+        drive, before = self._drive, (self._drive.x, self._drive.y, self._drive.yaw)
+        roll, pitch, surface = self._ground
+        drive.step(self._now_ns, STEP_NS * 1e-9, roll, pitch, surface)
+        if self.faults.stuck:
+            drive.hold(before)
+        self._acceleration += 0.2 * (drive.acceleration - self._acceleration)
+        if self._steps % _IMU_STEPS == 0:
+            self._ground = self._feel_ground()
+            self._sample_imu()
+        if self._steps % _CONTACT_STEPS == 0:
+            self._contacts += self._detector.update(self._now_ns, drive.x, drive.y, drive.yaw)
+        if (self._now_ns - self._start_ns) % self._gnss.period_ns < STEP_NS:
+            self._receive()
+
+    def _feel_ground(self) -> tuple[float, float, Surface]:
+        """Roll and pitch (rad) of the ground under the wheels, and what it is made of."""
+        d, body = self._drive, self._vehicle
+        roll, pitch = self._terrain.tilt(d.x, d.y, d.yaw, body.wheelbase, body.track)
+        return roll, pitch, self._terrain.surface(d.x, d.y)
+
+    def _sample_imu(self) -> None:
+        roll, pitch, surface = self._ground
+        sample = self._imu.sample(
+            self._now_ns, _IMU_STEPS * STEP_NS * 1e-9, speed=self._drive.v, acceleration=self._acceleration,
+            omega=self._drive.omega, roughness=SURFACE_TRAITS[surface].roughness,
+            ground_roll=roll, ground_pitch=pitch,
+        )  # fmt: skip
+        if self.faults.imu_frozen and self._imu_sent:
+            sample = replace(self._imu_sent[-1], stamp_ns=self._now_ns)
+        if not self.faults.imu_silent:
+            self._imu_sent.append(sample)
+
+    def _receive(self) -> None:
+        if self.faults.gnss_silent:
+            return
+        elapsed_s = (self._now_ns - self._start_ns) * 1e-9
+        self._gnss.epoch(self._now_ns, elapsed_s, self._antenna(), frozen=self.faults.gnss_frozen)
+
+    def _antenna(self) -> AntennaState:
+        d, body = self._drive, self._vehicle
+        lever = rotation_from_rpy(self._imu.roll, self._imu.pitch, d.yaw) @ (
+            body.antenna_x, body.antenna_y, body.antenna_height,
+        )  # fmt: skip
+        c, s = math.cos(d.yaw), math.sin(d.yaw)
+        vx = d.v * c - d.lateral_v * s - d.omega * float(lever[1])
+        vy = d.v * s + d.lateral_v * c + d.omega * float(lever[0])
+        return AntennaState(
+            x=d.x + float(lever[0]), y=d.y + float(lever[1]), z=float(lever[2]), vx=vx, vy=vy, yaw=d.yaw
+        )
+
+    def _output(self, now_ns: int) -> WorldOutput:
+        d = self._drive
+        truth = SimTruth(
+            stamp_ns=self._now_ns, x=d.x, y=d.y, yaw=d.yaw, roll=self._imu.roll, pitch=self._imu.pitch, v=d.v,
+            omega=d.omega,
+        )  # fmt: skip
+        arrived = [s for s in self._imu_sent if s.stamp_ns + self._imu_latency_ns <= now_ns]
+        self._imu_sent = self._imu_sent[len(arrived) :]
+        contacts, self._contacts = tuple(self._contacts), []
+        if self.faults.wheels_frozen:
+            self._wheels = replace(self._wheels, stamp_ns=self._now_ns)
+        else:
+            self._wheels = d.wheels(self._now_ns)
+        return WorldOutput(
+            truth=truth, wheels=self._wheels, imu=tuple(arrived), nmea=self._gnss.due(now_ns), contacts=contacts
+        )
+
+
+def _parked(site: SiteMap, params: WorldParams, rng: np.random.Generator) -> tuple[float, float, float]:
+    """Where the robot stands at first."""
+    if params.start is not None:
+        return params.start
+    if site.warehouse is None:
+        raise InputError("Draw the warehouse first: without one the simulated robot has no place to stand.")
+    dx, dy, turn = rng.standard_normal(3)
+    w, std = site.warehouse, params.parking_std_m
+    return float(w.x + std * dx), float(w.y + std * dy), float(w.yaw + math.radians(params.parking_std_deg) * turn)
