@@ -4,15 +4,18 @@
  */
 
 export interface paths {
-    "/api/session": {
+    "/api/drive/nonce": {
         parameters: {
             query?: never;
             header?: never;
             path?: never;
             cookie?: never;
         };
-        /** Session */
-        get: operations["session_api_session_get"];
+        /**
+         * Nonce
+         * @description A number for one start, from the page that the operator looks at.
+         */
+        get: operations["nonce_api_drive_nonce_get"];
         put?: never;
         post?: never;
         delete?: never;
@@ -21,52 +24,18 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
-    "/api/sites": {
+    "/api/jobs/{job_id}": {
         parameters: {
             query?: never;
             header?: never;
             path?: never;
             cookie?: never;
         };
-        /** Sites */
-        get: operations["sites__api_sites_get"];
-        put?: never;
-        /** Site New */
-        post: operations["site_new_api_sites_post"];
-        delete?: never;
-        options?: never;
-        head?: never;
-        patch?: never;
-        trace?: never;
-    };
-    "/api/sites/{id}": {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        /** Site Get */
-        get: operations["site_get_api_sites__id__get"];
-        /** Site Put */
-        put: operations["site_put_api_sites__id__put"];
-        post?: never;
-        /** Site Del */
-        delete: operations["site_del_api_sites__id__delete"];
-        options?: never;
-        head?: never;
-        patch?: never;
-        trace?: never;
-    };
-    "/api/sites/{id}/geojson": {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        /** Site Geo */
-        get: operations["site_geo_api_sites__id__geojson_get"];
+        /**
+         * Read Job
+         * @description How an import goes.
+         */
+        get: operations["read_job_api_jobs__job_id__get"];
         put?: never;
         post?: never;
         delete?: never;
@@ -75,17 +44,68 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
-    "/api/sites/import": {
+    "/api/live/latest": {
         parameters: {
             query?: never;
             header?: never;
             path?: never;
             cookie?: never;
         };
-        get?: never;
+        /**
+         * Latest
+         * @description Newest message of each topic; what `/api/live` sends is `{"topic": name, "data": one of these}`.
+         */
+        get: operations["latest_api_live_latest_get"];
         put?: never;
-        /** Site Imp */
-        post: operations["site_imp_api_sites_import_post"];
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/missions/{mission_id}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Mission
+         * @description One mission.
+         */
+        get: operations["read_mission_api_missions__mission_id__get"];
+        /**
+         * Update Mission
+         * @description Replace the mission; 409 if it was changed since `version`. A running copy is not touched.
+         */
+        put: operations["update_mission_api_missions__mission_id__put"];
+        post?: never;
+        /**
+         * Delete Mission
+         * @description Delete a mission. Its runs stay.
+         */
+        delete: operations["delete_mission_api_missions__mission_id__delete"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/missions/{mission_id}/geojson": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Export Mission
+         * @description The mission as GeoJSON.
+         */
+        get: operations["export_mission_api_missions__mission_id__geojson_get"];
+        put?: never;
+        post?: never;
         delete?: never;
         options?: never;
         head?: never;
@@ -101,164 +121,11 @@ export interface paths {
         };
         get?: never;
         put?: never;
-        /** Ortho */
-        post: operations["ortho_api_orthophotos_post"];
-        delete?: never;
-        options?: never;
-        head?: never;
-        patch?: never;
-        trace?: never;
-    };
-    "/api/sites/{id}/orthophoto": {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        get?: never;
-        put?: never;
-        /** Ortho2 */
-        post: operations["ortho2_api_sites__id__orthophoto_post"];
-        delete?: never;
-        options?: never;
-        head?: never;
-        patch?: never;
-        trace?: never;
-    };
-    "/api/jobs/{id}": {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        /** Job */
-        get: operations["job_api_jobs__id__get"];
-        put?: never;
-        post?: never;
-        delete?: never;
-        options?: never;
-        head?: never;
-        patch?: never;
-        trace?: never;
-    };
-    "/api/sites/{id}/tiles/{z}/{x}/{y}.png": {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        /** Tile */
-        get: operations["tile_api_sites__id__tiles__z___x___y__png_get"];
-        put?: never;
-        post?: never;
-        delete?: never;
-        options?: never;
-        head?: never;
-        patch?: never;
-        trace?: never;
-    };
-    "/api/sites/{id}/missions": {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        /** Ms */
-        get: operations["ms_api_sites__id__missions_get"];
-        put?: never;
-        /** Ms New */
-        post: operations["ms_new_api_sites__id__missions_post"];
-        delete?: never;
-        options?: never;
-        head?: never;
-        patch?: never;
-        trace?: never;
-    };
-    "/api/sites/{id}/missions/for-row": {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        get?: never;
-        put?: never;
-        /** Ms Row */
-        post: operations["ms_row_api_sites__id__missions_for_row_post"];
-        delete?: never;
-        options?: never;
-        head?: never;
-        patch?: never;
-        trace?: never;
-    };
-    "/api/sites/{id}/missions/import": {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        get?: never;
-        put?: never;
-        /** Ms Imp */
-        post: operations["ms_imp_api_sites__id__missions_import_post"];
-        delete?: never;
-        options?: never;
-        head?: never;
-        patch?: never;
-        trace?: never;
-    };
-    "/api/sites/{id}/preview": {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        get?: never;
-        put?: never;
-        /** Prev */
-        post: operations["prev_api_sites__id__preview_post"];
-        delete?: never;
-        options?: never;
-        head?: never;
-        patch?: never;
-        trace?: never;
-    };
-    "/api/missions/{id}": {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        /** Mi Get */
-        get: operations["mi_get_api_missions__id__get"];
-        /** Mi Put */
-        put: operations["mi_put_api_missions__id__put"];
-        post?: never;
-        /** Mi Del */
-        delete: operations["mi_del_api_missions__id__delete"];
-        options?: never;
-        head?: never;
-        patch?: never;
-        trace?: never;
-    };
-    "/api/missions/{id}/geojson": {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        /** Mi Geo */
-        get: operations["mi_geo_api_missions__id__geojson_get"];
-        put?: never;
-        post?: never;
+        /**
+         * Upload New Site
+         * @description Import a GeoTIFF (the body is the file) as the ground of a new site.
+         */
+        post: operations["upload_new_site_api_orthophotos_post"];
         delete?: never;
         options?: never;
         head?: never;
@@ -272,8 +139,11 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** Robot */
-        get: operations["robot_api_robot_get"];
+        /**
+         * Read Robot
+         * @description What the station knows of the robot.
+         */
+        get: operations["read_robot_api_robot_get"];
         put?: never;
         post?: never;
         delete?: never;
@@ -291,42 +161,11 @@ export interface paths {
         };
         get?: never;
         put?: never;
-        /** Robot Site */
-        post: operations["robot_site_api_robot_site_post"];
-        delete?: never;
-        options?: never;
-        head?: never;
-        patch?: never;
-        trace?: never;
-    };
-    "/api/drive/nonce": {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        /** Nonce */
-        get: operations["nonce_api_drive_nonce_get"];
-        put?: never;
-        post?: never;
-        delete?: never;
-        options?: never;
-        head?: never;
-        patch?: never;
-        trace?: never;
-    };
-    "/api/live/topics": {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        /** Topics */
-        get: operations["topics_api_live_topics_get"];
-        put?: never;
-        post?: never;
+        /**
+         * Place Robot
+         * @description Put the simulated robot on a farm; the simulator starts again there.
+         */
+        post: operations["place_robot_api_robot_site_post"];
         delete?: never;
         options?: never;
         head?: never;
@@ -340,11 +179,17 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** Runs */
-        get: operations["runs__api_runs_get"];
+        /**
+         * List Runs
+         * @description The newest runs, newest first.
+         */
+        get: operations["list_runs_api_runs_get"];
         put?: never;
-        /** Run Start */
-        post: operations["run_start_api_runs_post"];
+        /**
+         * Start Run
+         * @description Start a stored mission; 409 with every reason if it cannot start.
+         */
+        post: operations["start_run_api_runs_post"];
         delete?: never;
         options?: never;
         head?: never;
@@ -360,7 +205,10 @@ export interface paths {
         };
         get?: never;
         put?: never;
-        /** Stop */
+        /**
+         * Stop
+         * @description Stop now: to the guard by the short way, and to the navigator. Nothing else is asked first.
+         */
         post: operations["stop_api_runs_current_stop_post"];
         delete?: never;
         options?: never;
@@ -377,7 +225,10 @@ export interface paths {
         };
         get?: never;
         put?: never;
-        /** Act */
+        /**
+         * Act
+         * @description Pause, resume, or acknowledge what happened.
+         */
         post: operations["act_api_runs_current__action__post"];
         delete?: never;
         options?: never;
@@ -385,7 +236,107 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
-    "/fake/{what}": {
+    "/api/runs/{run_id}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Run
+         * @description One run with its own site, mission and plan.
+         */
+        get: operations["read_run_api_runs__run_id__get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/runs/{run_id}/camera": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Camera
+         * @description The picture shown at `t_s`; what was seen in it is in the header X-Camera-View, as JSON.
+         */
+        get: operations["camera_api_runs__run_id__camera_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/runs/{run_id}/download": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Download
+         * @description The run log, or one of its exports.
+         */
+        get: operations["download_api_runs__run_id__download_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/runs/{run_id}/track": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Track
+         * @description The run in columns, for replay.
+         */
+        get: operations["track_api_runs__run_id__track_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/session": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Session
+         * @description Whether this browser is logged in.
+         */
+        get: operations["session_api_session_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/session/invitations": {
         parameters: {
             query?: never;
             header?: never;
@@ -394,23 +345,121 @@ export interface paths {
         };
         get?: never;
         put?: never;
-        /** Fake */
-        post: operations["fake_fake__what__post"];
+        /**
+         * Invite
+         * @description A one-time address for another browser.
+         */
+        post: operations["invite_api_session_invitations_post"];
         delete?: never;
         options?: never;
         head?: never;
         patch?: never;
         trace?: never;
     };
-    "/api/runs/{id}": {
+    "/api/session/logout": {
         parameters: {
             query?: never;
             header?: never;
             path?: never;
             cookie?: never;
         };
-        /** Run Get */
-        get: operations["run_get_api_runs__id__get"];
+        get?: never;
+        put?: never;
+        /**
+         * Logout
+         * @description End this login; its live feeds close within a second.
+         */
+        post: operations["logout_api_session_logout_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Sites
+         * @description All sites, by name.
+         */
+        get: operations["list_sites_api_sites_get"];
+        put?: never;
+        /**
+         * Create Site
+         * @description A new site without a picture.
+         */
+        post: operations["create_site_api_sites_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/import": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Import Site
+         * @description A new site from GeoJSON.
+         */
+        post: operations["import_site_api_sites_import_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{site_id}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Site
+         * @description One site.
+         */
+        get: operations["read_site_api_sites__site_id__get"];
+        /**
+         * Update Site
+         * @description Replace the site map; 409 if it was changed since `version`.
+         */
+        put: operations["update_site_api_sites__site_id__put"];
+        post?: never;
+        /**
+         * Delete Site
+         * @description Delete a site, its missions and its picture. Runs stay.
+         */
+        delete: operations["delete_site_api_sites__site_id__delete"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{site_id}/geojson": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Export Site
+         * @description The site as GeoJSON.
+         */
+        get: operations["export_site_api_sites__site_id__geojson_get"];
         put?: never;
         post?: never;
         delete?: never;
@@ -419,15 +468,122 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
-    "/api/runs/{id}/track": {
+    "/api/sites/{site_id}/missions": {
         parameters: {
             query?: never;
             header?: never;
             path?: never;
             cookie?: never;
         };
-        /** Run Track */
-        get: operations["run_track_api_runs__id__track_get"];
+        /**
+         * List Missions
+         * @description All missions of a site, by name.
+         */
+        get: operations["list_missions_api_sites__site_id__missions_get"];
+        put?: never;
+        /**
+         * Create Mission
+         * @description Store a mission.
+         */
+        post: operations["create_mission_api_sites__site_id__missions_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{site_id}/missions/for-row": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Row Mission
+         * @description The whole mission to a row and back along the lanes; not saved.
+         */
+        post: operations["row_mission_api_sites__site_id__missions_for_row_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{site_id}/missions/import": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Import Mission
+         * @description Store a mission from GeoJSON.
+         */
+        post: operations["import_mission_api_sites__site_id__missions_import_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{site_id}/orthophoto": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Upload For Site
+         * @description Import a GeoTIFF (the body is the file) as the ground of a site that is there already.
+         */
+        post: operations["upload_for_site_api_sites__site_id__orthophoto_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{site_id}/preview": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Preview Mission
+         * @description What would be driven, or every reason why it cannot be.
+         */
+        post: operations["preview_mission_api_sites__site_id__preview_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{site_id}/tiles/{z}/{x}/{y}.png": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Tile
+         * @description A map tile, 256 px, EPSG:3857 XYZ, transparent outside of the picture.
+         */
+        get: operations["tile_api_sites__site_id__tiles__z___x___y__png_get"];
         put?: never;
         post?: never;
         delete?: never;
@@ -436,32 +592,18 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
-    "/api/runs/{id}/camera": {
+    "/enter": {
         parameters: {
             query?: never;
             header?: never;
             path?: never;
             cookie?: never;
         };
-        /** Run Cam */
-        get: operations["run_cam_api_runs__id__camera_get"];
-        put?: never;
-        post?: never;
-        delete?: never;
-        options?: never;
-        head?: never;
-        patch?: never;
-        trace?: never;
-    };
-    "/scene/": {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        /** Scene */
-        get: operations["scene_scene__get"];
+        /**
+         * Enter
+         * @description Exchange the one-time token for a cookie and go to the start page, so that no token stays in the address.
+         */
+        get: operations["enter_enter_get"];
         put?: never;
         post?: never;
         delete?: never;
@@ -495,14 +637,14 @@ export interface components {
          *         text: what the operator should know and do.
          */
         ActiveEvent: {
-            /** Name */
-            name: string;
             /** Effect */
             effect: string;
-            /** Text */
-            text: string;
+            /** Name */
+            name: string;
             /** Since Ns */
             since_ns: number;
+            /** Text */
+            text: string;
         };
         /**
          * CameraName
@@ -513,80 +655,29 @@ export interface components {
         /**
          * CameraView
          * @description A picture's description for the browser; the camera's own JPEG travels beside it in the same message.
+         *
+         *     `centre` is the corridor's centre line on the ground, `bisector` the published one in the image.
          */
         CameraView: {
-            /** Stamp Ns */
-            stamp_ns: number;
+            bisector?: components["schemas"]["ImageLine"] | null;
             camera: components["schemas"]["CameraName"];
-            /** Width Px */
-            width_px: number;
+            centre: components["schemas"]["ImageLine"] | null;
             /** Height Px */
             height_px: number;
+            /** Latency Ms */
+            latency_ms: number;
+            left: components["schemas"]["ImageLine"] | null;
             /** Objects */
             objects: components["schemas"]["DetectedObject"][];
             /** Points */
             points: components["schemas"]["ImagePoint"][];
-            left: components["schemas"]["ImageLine"] | null;
             right: components["schemas"]["ImageLine"] | null;
-            centre: components["schemas"]["ImageLine"] | null;
             row: components["schemas"]["RowObservation"];
-            /** Latency Ms */
-            latency_ms: number;
-        };
-        /**
-         * ChassisState
-         * @description All that the chassis reports, newest value of each frame.
-         *
-         *     Attributes:
-         *         stamp_ns: monotonic time at which the newest motion frame (0x221) arrived.
-         *         system_stamp_ns: monotonic time at which the newest system frame (0x211) arrived, 0 before the first.
-         *         v, omega: measured speed in m/s and turn rate in rad/s (from the wheels: slip is not seen).
-         *         left_mm, right_mm: odometers.
-         *         voltage_v: battery.
-         *         faults: 0x211 byte 4.
-         *         driver_faults: states of the motor drivers, front right first, clockwise.
-         *         guard: state of the guard that sent this.
-         *         guard_reason: why the guard is not ARMED, or what it refused last; empty when all is well.
-         *         accepted_seq: newest command that became a frame.
-         */
-        ChassisState: {
             /** Stamp Ns */
             stamp_ns: number;
-            /** System Stamp Ns */
-            system_stamp_ns: number;
-            /** V */
-            v: number;
-            /** Omega */
-            omega: number;
-            /** Left Mm */
-            left_mm: number;
-            /** Right Mm */
-            right_mm: number;
-            state: components["schemas"]["VehicleState"];
-            mode: components["schemas"]["ControlMode"];
-            /** Voltage V */
-            voltage_v: number;
-            /** Faults */
-            faults: number;
-            /** Driver Faults */
-            driver_faults: [
-                number,
-                number,
-                number,
-                number
-            ];
-            guard: components["schemas"]["GuardState"];
-            /** Guard Reason */
-            guard_reason: string;
-            /** Accepted Seq */
-            accepted_seq: number;
+            /** Width Px */
+            width_px: number;
         };
-        /**
-         * ControlMode
-         * @description Who commands the chassis (0x211 byte 1, Scout manual 1.3.0, table 3.3).
-         * @enum {integer}
-         */
-        ControlMode: 0 | 1 | 2 | 3;
         /**
          * Datum
          * @description Origin of the `map` frame.
@@ -597,39 +688,49 @@ export interface components {
          *         corrections: source of RTK corrections the site was surveyed with, in words.
          */
         Datum: {
-            /** Lat Deg */
-            lat_deg: number;
-            /** Lon Deg */
-            lon_deg: number;
-            /** Height M */
-            height_m: number;
-            /**
-             * Frame
-             * @default WGS 84
-             */
-            frame: string;
             /**
              * Corrections
              * @default
              */
             corrections: string;
+            /**
+             * Frame
+             * @default WGS 84
+             */
+            frame: string;
+            /** Height M */
+            height_m: number;
+            /** Lat Deg */
+            lat_deg: number;
+            /** Lon Deg */
+            lon_deg: number;
         };
         /**
          * DetectedObject
          * @description A box in the image, pixels, origin top left, (x1, y1) top left and (x2, y2) bottom right.
          */
         DetectedObject: {
-            kind: components["schemas"]["ObjectKind"];
             /** Confidence */
             confidence: number;
+            kind: components["schemas"]["ObjectKind"];
             /** X1 */
             x1: number;
-            /** Y1 */
-            y1: number;
             /** X2 */
             x2: number;
+            /** Y1 */
+            y1: number;
             /** Y2 */
             y2: number;
+        };
+        /**
+         * ErrorDocument
+         * @description Every error: one sentence, and all reasons where there are several.
+         */
+        ErrorDocument: {
+            /** Message */
+            message: string;
+            /** Reasons */
+            reasons: string[];
         };
         /**
          * FixQuality
@@ -650,48 +751,37 @@ export interface components {
          *         hdop, satellites, correction_age_s: None if not told.
          */
         GnssFix: {
-            /** Stamp Ns */
-            stamp_ns: number;
-            /** Utc S */
-            utc_s: number | null;
-            quality: components["schemas"]["FixQuality"];
+            /** Correction Age S */
+            correction_age_s?: number | null;
+            /** Course Rad */
+            course_rad?: number | null;
+            /** Hdop */
+            hdop?: number | null;
+            /** Heading Rad */
+            heading_rad?: number | null;
+            /** Heading Std Rad */
+            heading_std_rad?: number | null;
+            /** Height M */
+            height_m: number | null;
             /** Lat Deg */
             lat_deg: number | null;
             /** Lon Deg */
             lon_deg: number | null;
-            /** Height M */
-            height_m: number | null;
+            quality: components["schemas"]["FixQuality"];
+            /** Satellites */
+            satellites?: number | null;
+            /** Speed */
+            speed?: number | null;
+            /** Stamp Ns */
+            stamp_ns: number;
             /** Std East M */
             std_east_m?: number | null;
             /** Std North M */
             std_north_m?: number | null;
             /** Std Up M */
             std_up_m?: number | null;
-            /** Heading Rad */
-            heading_rad?: number | null;
-            /** Heading Std Rad */
-            heading_std_rad?: number | null;
-            /** Speed */
-            speed?: number | null;
-            /** Course Rad */
-            course_rad?: number | null;
-            /** Hdop */
-            hdop?: number | null;
-            /** Satellites */
-            satellites?: number | null;
-            /** Correction Age S */
-            correction_age_s?: number | null;
-        };
-        /**
-         * GuardState
-         * @description State of the guard. Only ARMED lets motion frames out.
-         * @enum {integer}
-         */
-        GuardState: 0 | 1 | 2;
-        /** HTTPValidationError */
-        HTTPValidationError: {
-            /** Detail */
-            detail?: components["schemas"]["ValidationError"][];
+            /** Utc S */
+            utc_s: number | null;
         };
         /**
          * ImageLine
@@ -700,10 +790,10 @@ export interface components {
         ImageLine: {
             /** U0 */
             u0: number;
-            /** V0 */
-            v0: number;
             /** U1 */
             u1: number;
+            /** V0 */
+            v0: number;
             /** V1 */
             v1: number;
         };
@@ -712,14 +802,24 @@ export interface components {
          * @description A corner point: where an object meets the ground, and whether the row fit kept it.
          */
         ImagePoint: {
+            /** Kept */
+            kept: boolean;
+            /** Side */
+            side: string;
             /** U */
             u: number;
             /** V */
             v: number;
-            /** Side */
-            side: string;
-            /** Kept */
-            kept: boolean;
+        };
+        /**
+         * Invitation
+         * @description A one-time address by which another browser logs in.
+         */
+        Invitation: {
+            /** Expires S */
+            expires_s: number;
+            /** Path */
+            path: string;
         };
         /**
          * Job
@@ -731,13 +831,13 @@ export interface components {
              * @description Made by the station
              */
             id: string;
-            state: components["schemas"]["JobState"];
-            /** Progress */
-            progress: number;
             /** Message */
             message: string;
+            /** Progress */
+            progress: number;
             /** Site Id */
             site_id: string | null;
+            state: components["schemas"]["JobState"];
         };
         /**
          * JobStarted
@@ -763,26 +863,26 @@ export interface components {
         Lane: {
             /** Id */
             id: string;
+            /**
+             * Name
+             * @default
+             */
+            name: string;
             /** Points */
             points: [
                 number,
                 number
             ][];
             /**
-             * Width
-             * @default 3
-             */
-            width: number;
-            /**
              * Speed
              * @default 0.8
              */
             speed: number;
             /**
-             * Name
-             * @default
+             * Width
+             * @default 3
              */
-            name: string;
+            width: number;
         };
         /**
          * LinkLossPolicy
@@ -795,13 +895,18 @@ export interface components {
          * @description Newest message of each topic that browsers see; the same bytes travel on the live feed as `{topic, data}`.
          */
         LiveTopics: {
+            "camera/view": components["schemas"]["CameraView"] | null;
+            "gnss/fix": components["schemas"]["GnssFix"] | null;
+            "nav/plan": components["schemas"]["MissionPlan"] | null;
             "nav/status": components["schemas"]["NavStatus"] | null;
             "nav/switch": components["schemas"]["ModeSwitch"] | null;
-            "nav/plan": components["schemas"]["MissionPlan"] | null;
-            "gnss/fix": components["schemas"]["GnssFix"] | null;
-            "camera/view": components["schemas"]["CameraView"] | null;
-            "chassis/state": components["schemas"]["ChassisState"] | null;
         };
+        /**
+         * LogFormat
+         * @description Forms in which a run can be downloaded.
+         * @enum {string}
+         */
+        LogFormat: "mcap" | "csv" | "geojson" | "gpx";
         /**
          * Mission
          * @description Warehouse -> outbound waypoints -> rows -> inbound waypoints -> warehouse.
@@ -809,14 +914,14 @@ export interface components {
         Mission: {
             /** Id */
             id: string;
+            /** Inbound */
+            inbound: components["schemas"]["Waypoint"][];
             /** Name */
             name: string;
             /** Outbound */
             outbound: components["schemas"]["Waypoint"][];
             /** Visits */
             visits: components["schemas"]["RowVisit"][];
-            /** Inbound */
-            inbound: components["schemas"]["Waypoint"][];
         };
         /**
          * MissionCreate
@@ -835,30 +940,30 @@ export interface components {
              * @description Made by the station
              */
             id: string;
+            mission: components["schemas"]["Mission"];
+            /** Name */
+            name: string;
             /**
              * Site Id
              * @description Made by the station
              */
             site_id: string;
-            /** Version */
-            version: number;
-            /** Name */
-            name: string;
-            mission: components["schemas"]["Mission"];
             /**
              * Updated
              * Format: date-time
              */
             updated: string;
+            /** Version */
+            version: number;
         };
         /**
          * MissionEdit
          * @description The whole mission as it shall be, and the version it was made from.
          */
         MissionEdit: {
+            mission: components["schemas"]["Mission"];
             /** Version */
             version: number;
-            mission: components["schemas"]["Mission"];
         };
         /**
          * MissionPlan
@@ -869,18 +974,12 @@ export interface components {
          *         keep_in, keep_out: polygons in `map`.
          */
         MissionPlan: {
-            /** Mission Id */
-            mission_id: string;
-            /** Name */
-            name: string;
             /** Datum */
             datum: [
                 number,
                 number,
                 number
             ];
-            /** Segments */
-            segments: components["schemas"]["PathSegment"][];
             /**
              * Keep In
              * @default []
@@ -897,32 +996,38 @@ export interface components {
                 number,
                 number
             ][][];
+            /** Mission Id */
+            mission_id: string;
+            /** Name */
+            name: string;
+            /** Segments */
+            segments: components["schemas"]["PathSegment"][];
         };
         /**
          * ModeSwitch
          * @description A change of the source driven on, with the numbers that caused it.
          */
         ModeSwitch: {
-            /** Stamp Ns */
-            stamp_ns: number;
-            before: components["schemas"]["NavMode"];
             after: components["schemas"]["NavMode"];
+            /** Along Segment */
+            along_segment: number;
+            before: components["schemas"]["NavMode"];
+            /** End Distance */
+            end_distance: number | null;
+            /** Gnss Std */
+            gnss_std: number | null;
             /** Reason */
             reason: string;
+            /** Row Offset */
+            row_offset: number | null;
+            /** Row Quality */
+            row_quality: number | null;
+            /** Stamp Ns */
+            stamp_ns: number;
             /** X */
             x: number;
             /** Y */
             y: number;
-            /** Along Segment */
-            along_segment: number;
-            /** Gnss Std */
-            gnss_std: number | null;
-            /** Row Quality */
-            row_quality: number | null;
-            /** Row Offset */
-            row_offset: number | null;
-            /** End Distance */
-            end_distance: number | null;
         };
         /**
          * NavMode
@@ -941,60 +1046,60 @@ export interface components {
          *         speed_limit: m/s after all regulation, with `speed_reason` naming the tightest cause.
          */
         NavStatus: {
-            /** Stamp Ns */
-            stamp_ns: number;
-            state: components["schemas"]["RunState"];
+            /** Battery V */
+            battery_v: number | null;
+            /** Events */
+            events: components["schemas"]["ActiveEvent"][];
+            /** Gnss Age S */
+            gnss_age_s: number | null;
+            gnss_quality: components["schemas"]["FixQuality"];
+            /** Guard */
+            guard: string;
+            /** Guard Reason */
+            guard_reason: string;
+            /** Heading Error */
+            heading_error: number | null;
+            /** Lateral Error */
+            lateral_error: number | null;
             mode: components["schemas"]["NavMode"];
             /** Mode Reason */
             mode_reason: string;
+            /** Omega */
+            omega: number;
+            pose: components["schemas"]["PoseEstimate"] | null;
+            /** Progress */
+            progress: number;
+            /** Remaining */
+            remaining: number;
+            /** Row Age S */
+            row_age_s: number | null;
+            /** Row Id */
+            row_id: string | null;
             /** Run Id */
             run_id: string | null;
             /** Segment */
             segment: number;
             /** Segments */
             segments: number;
-            /** Row Id */
-            row_id: string | null;
-            /** Progress */
-            progress: number;
-            /** Remaining */
-            remaining: number;
-            /** Lateral Error */
-            lateral_error: number | null;
-            /** Heading Error */
-            heading_error: number | null;
-            /** V */
-            v: number;
-            /** Omega */
-            omega: number;
             /** Speed Limit */
             speed_limit: number;
             /** Speed Reason */
             speed_reason: string;
-            pose: components["schemas"]["PoseEstimate"] | null;
-            gnss_quality: components["schemas"]["FixQuality"];
-            /** Gnss Age S */
-            gnss_age_s: number | null;
-            /** Row Age S */
-            row_age_s: number | null;
-            /** Battery V */
-            battery_v: number | null;
-            /** Guard */
-            guard: string;
-            /** Guard Reason */
-            guard_reason: string;
-            /** Events */
-            events: components["schemas"]["ActiveEvent"][];
+            /** Stamp Ns */
+            stamp_ns: number;
+            state: components["schemas"]["RunState"];
+            /** V */
+            v: number;
         };
         /**
          * Nonce
          * @description Single use, for one start from the page that asked.
          */
         Nonce: {
-            /** Nonce */
-            nonce: string;
             /** Expires S */
             expires_s: number;
+            /** Nonce */
+            nonce: string;
         };
         /**
          * ObjectKind
@@ -1020,28 +1125,6 @@ export interface components {
          *         min_zoom, max_zoom: zoom levels worth asking tiles for.
          */
         OrthophotoInfo: {
-            /**
-             * Id
-             * @description Made by the station
-             */
-            id: string;
-            /** File Name */
-            file_name: string;
-            /** Crs */
-            crs: string;
-            /** Width Px */
-            width_px: number;
-            /** Height Px */
-            height_px: number;
-            /** Resolution */
-            resolution: number;
-            /** Bounds Deg */
-            bounds_deg: [
-                number,
-                number,
-                number,
-                number
-            ];
             /** Bounds 3857 */
             bounds_3857: [
                 number,
@@ -1049,10 +1132,32 @@ export interface components {
                 number,
                 number
             ];
-            /** Min Zoom */
-            min_zoom: number;
+            /** Bounds Deg */
+            bounds_deg: [
+                number,
+                number,
+                number,
+                number
+            ];
+            /** Crs */
+            crs: string;
+            /** File Name */
+            file_name: string;
+            /** Height Px */
+            height_px: number;
+            /**
+             * Id
+             * @description Made by the station
+             */
+            id: string;
             /** Max Zoom */
             max_zoom: number;
+            /** Min Zoom */
+            min_zoom: number;
+            /** Resolution */
+            resolution: number;
+            /** Width Px */
+            width_px: number;
         };
         /**
          * PathSegment
@@ -1068,44 +1173,44 @@ export interface components {
          *             segment's direction of driving enters it.
          */
         PathSegment: {
+            /** Corridor Width */
+            corridor_width?: number | null;
             kind: components["schemas"]["SegmentKind"];
             /** Points */
             points: [
                 number,
                 number
             ][];
-            /** Speeds */
-            speeds: number[];
             /**
              * Reverse
              * @default false
              */
             reverse: boolean;
-            /** Row Id */
-            row_id?: string | null;
-            /** Corridor Width */
-            corridor_width?: number | null;
-            /** Row Start */
-            row_start?: [
-                number,
-                number
-            ] | null;
             /** Row End */
             row_end?: [
                 number,
                 number
             ] | null;
+            /** Row Id */
+            row_id?: string | null;
+            /** Row Start */
+            row_start?: [
+                number,
+                number
+            ] | null;
+            /** Speeds */
+            speeds: number[];
         };
         /**
          * Plant
          * @description One surveyed post or trunk.
          */
         Plant: {
+            kind: components["schemas"]["PlantKind"];
             /** X */
             x: number;
             /** Y */
             y: number;
-            kind: components["schemas"]["PlantKind"];
         };
         /**
          * PlantKind
@@ -1118,35 +1223,35 @@ export interface components {
          * @description Pose of `base_link` in `map`, with the covariance of (x, y, yaw), row-major 9 numbers.
          */
         PoseEstimate: {
+            /** Covariance */
+            covariance: number[];
+            /** Omega */
+            omega: number;
+            /** Source */
+            source: string;
             /** Stamp Ns */
             stamp_ns: number;
+            /** V */
+            v: number;
             /** X */
             x: number;
             /** Y */
             y: number;
             /** Yaw */
             yaw: number;
-            /** V */
-            v: number;
-            /** Omega */
-            omega: number;
-            /** Covariance */
-            covariance: number[];
-            /** Source */
-            source: string;
         };
         /**
          * Preview
          * @description The plan that would be driven, or every reason why there is none. Lengths in m, times in s.
          */
         Preview: {
+            /** Duration S */
+            duration_s: number;
+            /** Length M */
+            length_m: number;
             plan: components["schemas"]["MissionPlan"] | null;
             /** Problems */
             problems: string[];
-            /** Length M */
-            length_m: number;
-            /** Duration S */
-            duration_s: number;
         };
         /**
          * PreviewRequest
@@ -1170,18 +1275,18 @@ export interface components {
         Robot: {
             /** Connected */
             connected: boolean;
-            /** Simulated */
-            simulated: boolean;
-            vehicle: components["schemas"]["VehicleParams"];
-            /** Site Id */
-            site_id: string | null;
-            state: components["schemas"]["RunState"] | null;
+            /** Operators */
+            operators: number;
             /** Run Id */
             run_id: string | null;
             /** Scene */
             scene: boolean;
-            /** Operators */
-            operators: number;
+            /** Simulated */
+            simulated: boolean;
+            /** Site Id */
+            site_id: string | null;
+            state: components["schemas"]["RunState"] | null;
+            vehicle: components["schemas"]["VehicleParams"];
         };
         /**
          * RobotSite
@@ -1204,15 +1309,35 @@ export interface components {
          *         post_spacing, plant_spacing: along the lines of plants, m.
          */
         Row: {
-            /** Id */
-            id: string;
-            /** Start */
-            start: [
+            /** End */
+            end: [
                 number,
                 number
             ];
-            /** End */
-            end: [
+            /** Id */
+            id: string;
+            /**
+             * Name
+             * @default
+             */
+            name: string;
+            /**
+             * Plant Spacing
+             * @default 1.5
+             */
+            plant_spacing: number;
+            /**
+             * Post Spacing
+             * @default 6
+             */
+            post_spacing: number;
+            /**
+             * Speed
+             * @default 0.6
+             */
+            speed: number;
+            /** Start */
+            start: [
                 number,
                 number
             ];
@@ -1221,26 +1346,6 @@ export interface components {
              * @default 3
              */
             width: number;
-            /**
-             * Speed
-             * @default 0.6
-             */
-            speed: number;
-            /**
-             * Name
-             * @default
-             */
-            name: string;
-            /**
-             * Post Spacing
-             * @default 6
-             */
-            post_spacing: number;
-            /**
-             * Plant Spacing
-             * @default 1.5
-             */
-            plant_spacing: number;
         };
         /**
          * RowExit
@@ -1253,10 +1358,10 @@ export interface components {
          * @description One click on a row.
          */
         RowMissionRequest: {
-            /** Row Id */
-            row_id: string;
             /** @default reverse */
             exit: components["schemas"]["RowExit"];
+            /** Row Id */
+            row_id: string;
         };
         /**
          * RowObservation
@@ -1276,47 +1381,53 @@ export interface components {
          *         end_distance: distance ahead at which the row ends, m, None if no end is in sight.
          *         objects: number of trunks and posts that carried the fit.
          *         left_seen, right_seen: this frame's own evidence for each side (False: carried over from earlier frames).
+         *         image_offset, image_heading: paper A's reading of the image's bisector: lateral deviation of the centre line
+         *             at the look-ahead depth, m, and its angle to the image's vertical, rad; both positive to the left.
          */
         RowObservation: {
-            /** Stamp Ns */
-            stamp_ns: number;
             camera: components["schemas"]["CameraName"];
-            /** Valid */
-            valid: boolean;
-            /** Reason */
-            reason: string;
-            /** Offset */
-            offset?: number | null;
-            /** Heading */
-            heading?: number | null;
-            /** Offset Std */
-            offset_std?: number | null;
-            /** Heading Std */
-            heading_std?: number | null;
-            /**
-             * Quality
-             * @default 0
-             */
-            quality: number;
-            /** Width */
-            width?: number | null;
             /** End Distance */
             end_distance?: number | null;
-            /**
-             * Objects
-             * @default 0
-             */
-            objects: number;
+            /** Heading */
+            heading?: number | null;
+            /** Heading Std */
+            heading_std?: number | null;
+            /** Image Heading */
+            image_heading?: number | null;
+            /** Image Offset */
+            image_offset?: number | null;
             /**
              * Left Seen
              * @default false
              */
             left_seen: boolean;
             /**
+             * Objects
+             * @default 0
+             */
+            objects: number;
+            /** Offset */
+            offset?: number | null;
+            /** Offset Std */
+            offset_std?: number | null;
+            /**
+             * Quality
+             * @default 0
+             */
+            quality: number;
+            /** Reason */
+            reason: string;
+            /**
              * Right Seen
              * @default false
              */
             right_seen: boolean;
+            /** Stamp Ns */
+            stamp_ns: number;
+            /** Valid */
+            valid: boolean;
+            /** Width */
+            width?: number | null;
         };
         /**
          * RowVisit
@@ -1329,15 +1440,15 @@ export interface components {
          *         speed: m/s in the row.
          */
         RowVisit: {
-            /** Row Id */
-            row_id: string;
+            /** @default reverse */
+            exit: components["schemas"]["RowExit"];
             /**
              * From Start
              * @default true
              */
             from_start: boolean;
-            /** @default reverse */
-            exit: components["schemas"]["RowExit"];
+            /** Row Id */
+            row_id: string;
             /**
              * Speed
              * @default 0.6
@@ -1349,52 +1460,52 @@ export interface components {
          * @description A run with its own copies of what it was started with, and what happened.
          */
         RunDetail: {
+            /** Distance M */
+            distance_m: number;
+            /** Duration S */
+            duration_s: number;
+            /** Ended */
+            ended: string | null;
+            /** Events */
+            events: components["schemas"]["RunEventDocument"][];
+            /** Holds */
+            holds: number;
             /**
              * Id
              * @description Made by the station
              */
             id: string;
-            /** Site Id */
-            site_id: string | null;
-            /** Site Name */
-            site_name: string;
+            link_loss: components["schemas"]["LinkLossPolicy"];
+            /** Log Bytes */
+            log_bytes: number | null;
+            /** Max Lateral Error */
+            max_lateral_error: number | null;
+            /** Mean Lateral Error */
+            mean_lateral_error: number | null;
+            mission: components["schemas"]["Mission"];
             /** Mission Id */
             mission_id: string | null;
             /** Mission Name */
             mission_name: string;
+            /** Mode Switches */
+            mode_switches: number;
             outcome: components["schemas"]["RunOutcome"];
-            state: components["schemas"]["RunState"] | null;
+            plan: components["schemas"]["MissionPlan"];
+            /** Progress */
+            progress: number;
             /** Reason */
             reason: string;
-            link_loss: components["schemas"]["LinkLossPolicy"];
+            site: components["schemas"]["SiteMap"];
+            /** Site Id */
+            site_id: string | null;
+            /** Site Name */
+            site_name: string;
             /**
              * Started
              * Format: date-time
              */
             started: string;
-            /** Ended */
-            ended: string | null;
-            /** Duration S */
-            duration_s: number;
-            /** Distance M */
-            distance_m: number;
-            /** Progress */
-            progress: number;
-            /** Mean Lateral Error */
-            mean_lateral_error: number | null;
-            /** Max Lateral Error */
-            max_lateral_error: number | null;
-            /** Mode Switches */
-            mode_switches: number;
-            /** Holds */
-            holds: number;
-            /** Log Bytes */
-            log_bytes: number | null;
-            site: components["schemas"]["SiteMap"];
-            mission: components["schemas"]["Mission"];
-            plan: components["schemas"]["MissionPlan"];
-            /** Events */
-            events: components["schemas"]["RunEventDocument"][];
+            state: components["schemas"]["RunState"] | null;
         };
         /**
          * RunDocument
@@ -1405,57 +1516,57 @@ export interface components {
          *         log_bytes: size of the run log on disk, None without one.
          */
         RunDocument: {
+            /** Distance M */
+            distance_m: number;
+            /** Duration S */
+            duration_s: number;
+            /** Ended */
+            ended: string | null;
+            /** Holds */
+            holds: number;
             /**
              * Id
              * @description Made by the station
              */
             id: string;
-            /** Site Id */
-            site_id: string | null;
-            /** Site Name */
-            site_name: string;
+            link_loss: components["schemas"]["LinkLossPolicy"];
+            /** Log Bytes */
+            log_bytes: number | null;
+            /** Max Lateral Error */
+            max_lateral_error: number | null;
+            /** Mean Lateral Error */
+            mean_lateral_error: number | null;
             /** Mission Id */
             mission_id: string | null;
             /** Mission Name */
             mission_name: string;
+            /** Mode Switches */
+            mode_switches: number;
             outcome: components["schemas"]["RunOutcome"];
-            state: components["schemas"]["RunState"] | null;
+            /** Progress */
+            progress: number;
             /** Reason */
             reason: string;
-            link_loss: components["schemas"]["LinkLossPolicy"];
+            /** Site Id */
+            site_id: string | null;
+            /** Site Name */
+            site_name: string;
             /**
              * Started
              * Format: date-time
              */
             started: string;
-            /** Ended */
-            ended: string | null;
-            /** Duration S */
-            duration_s: number;
-            /** Distance M */
-            distance_m: number;
-            /** Progress */
-            progress: number;
-            /** Mean Lateral Error */
-            mean_lateral_error: number | null;
-            /** Max Lateral Error */
-            max_lateral_error: number | null;
-            /** Mode Switches */
-            mode_switches: number;
-            /** Holds */
-            holds: number;
-            /** Log Bytes */
-            log_bytes: number | null;
+            state: components["schemas"]["RunState"] | null;
         };
         /**
          * RunEventDocument
          * @description Something that happened in a run. `t_s` counts from the start of the run.
          */
         RunEventDocument: {
-            /** T S */
-            t_s: number;
             /** Kind */
             kind: string;
+            /** T S */
+            t_s: number;
             /** Text */
             text: string;
         };
@@ -1470,12 +1581,12 @@ export interface components {
          * @description Starts a stored mission. `link_loss` is the operator's choice for when no page is heard of for 5 s.
          */
         RunStart: {
+            link_loss: components["schemas"]["LinkLossPolicy"];
             /**
              * Mission Id
              * @description Made by the station
              */
             mission_id: string;
-            link_loss: components["schemas"]["LinkLossPolicy"];
             /** Nonce */
             nonce: string;
         };
@@ -1490,38 +1601,38 @@ export interface components {
          * @description The run in columns of equal length, about 10 Hz. Pose in `map`; `t_s` counts from the log's first message.
          */
         RunTrack: {
+            /** Camera T S */
+            camera_t_s: number[];
+            /** Gnss Std */
+            gnss_std: (number | null)[];
+            /** Heading Error */
+            heading_error: (number | null)[];
+            /** Lateral Error */
+            lateral_error: (number | null)[];
+            /** Mode */
+            mode: components["schemas"]["NavMode"][];
+            /** Omega */
+            omega: number[];
+            /** Progress */
+            progress: number[];
+            /** Reason */
+            reason: string[];
+            /** Speed Limit */
+            speed_limit: number[];
+            /** State */
+            state: components["schemas"]["RunState"][];
+            /** Switches */
+            switches: components["schemas"]["ModeSwitch"][];
             /** T S */
             t_s: number[];
+            /** V */
+            v: number[];
             /** X */
             x: number[];
             /** Y */
             y: number[];
             /** Yaw */
             yaw: number[];
-            /** V */
-            v: number[];
-            /** Omega */
-            omega: number[];
-            /** Lateral Error */
-            lateral_error: (number | null)[];
-            /** Heading Error */
-            heading_error: (number | null)[];
-            /** Gnss Std */
-            gnss_std: (number | null)[];
-            /** Speed Limit */
-            speed_limit: number[];
-            /** Progress */
-            progress: number[];
-            /** Mode */
-            mode: components["schemas"]["NavMode"][];
-            /** State */
-            state: components["schemas"]["RunState"][];
-            /** Reason */
-            reason: string[];
-            /** Switches */
-            switches: components["schemas"]["ModeSwitch"][];
-            /** Camera T S */
-            camera_t_s: number[];
         };
         /**
          * SegmentKind
@@ -1556,56 +1667,56 @@ export interface components {
              * @description Made by the station
              */
             id: string;
-            /** Version */
-            version: number;
             /** Name */
             name: string;
-            site: components["schemas"]["SiteMap"];
             orthophoto: components["schemas"]["OrthophotoInfo"] | null;
+            site: components["schemas"]["SiteMap"];
             /**
              * Updated
              * Format: date-time
              */
             updated: string;
+            /** Version */
+            version: number;
         };
         /**
          * SiteEdit
          * @description The whole site map as it shall be, and the version it was made from.
          */
         SiteEdit: {
+            site: components["schemas"]["SiteMap"];
             /** Version */
             version: number;
-            site: components["schemas"]["SiteMap"];
         };
         /**
          * SiteMap
          * @description A farm. Surveyed `plants` are optional; without them the lines of plants follow from the rows.
          */
         SiteMap: {
-            /** Name */
-            name: string;
             datum: components["schemas"]["Datum"];
-            warehouse?: components["schemas"]["Warehouse"] | null;
             /**
              * Lanes
              * @default []
              */
             lanes: components["schemas"]["Lane"][];
-            /**
-             * Rows
-             * @default []
-             */
-            rows: components["schemas"]["Row"][];
-            /**
-             * Zones
-             * @default []
-             */
-            zones: components["schemas"]["Zone"][];
+            /** Name */
+            name: string;
             /**
              * Plants
              * @default []
              */
             plants: components["schemas"]["Plant"][];
+            /**
+             * Rows
+             * @default []
+             */
+            rows: components["schemas"]["Row"][];
+            warehouse?: components["schemas"]["Warehouse"] | null;
+            /**
+             * Zones
+             * @default []
+             */
+            zones: components["schemas"]["Zone"][];
         };
         /**
          * SiteSummary
@@ -1617,22 +1728,22 @@ export interface components {
              * @description Made by the station
              */
             id: string;
-            /** Version */
-            version: number;
-            /** Name */
-            name: string;
-            /** Rows */
-            rows: number;
             /** Lanes */
             lanes: number;
             /** Missions */
             missions: number;
+            /** Name */
+            name: string;
             orthophoto: components["schemas"]["OrthophotoInfo"] | null;
+            /** Rows */
+            rows: number;
             /**
              * Updated
              * Format: date-time
              */
             updated: string;
+            /** Version */
+            version: number;
         };
         /**
          * StopResult
@@ -1645,23 +1756,10 @@ export interface components {
         StopResult: {
             /** Guard */
             guard: boolean;
-            /** Navigator */
-            navigator: boolean;
             /** Message */
             message: string;
-        };
-        /** ValidationError */
-        ValidationError: {
-            /** Location */
-            loc: (string | number)[];
-            /** Message */
-            msg: string;
-            /** Error Type */
-            type: string;
-            /** Input */
-            input?: unknown;
-            /** Context */
-            ctx?: Record<string, never>;
+            /** Navigator */
+            navigator: boolean;
         };
         /**
          * VehicleParams
@@ -1677,74 +1775,84 @@ export interface components {
          *         max_acceleration: m/s^2, also used for braking.
          *         max_angular_acceleration: rad/s^2.
          *         turn_track_ratio: effective track / track when turning (skid steering turns less than its wheels say).
+         *         antenna_x, antenna_y, antenna_height: main GNSS antenna in `base_link`, m.
          */
         VehicleParams: {
-            /** Name */
-            name: string;
-            /** Length */
-            length: number;
-            /** Width */
-            width: number;
+            /**
+             * Antenna Height
+             * @default 1.2
+             */
+            antenna_height: number;
+            /**
+             * Antenna X
+             * @default 0
+             */
+            antenna_x: number;
+            /**
+             * Antenna Y
+             * @default 0
+             */
+            antenna_y: number;
             /** Height */
             height: number;
-            /** Wheelbase */
-            wheelbase: number;
-            /** Track */
-            track: number;
-            /** Wheel Diameter */
-            wheel_diameter: number;
+            /** Length */
+            length: number;
             /** Mass */
             mass: number;
-            /** Payload */
-            payload: number;
-            /** Max Speed */
-            max_speed: number;
-            /** Max Turn Rate */
-            max_turn_rate: number;
             /** Max Acceleration */
             max_acceleration: number;
             /** Max Angular Acceleration */
             max_angular_acceleration: number;
+            /** Max Speed */
+            max_speed: number;
+            /** Max Turn Rate */
+            max_turn_rate: number;
+            /** Name */
+            name: string;
+            /** Payload */
+            payload: number;
+            /** Track */
+            track: number;
             /** Turn Track Ratio */
             turn_track_ratio: number;
+            /** Wheel Diameter */
+            wheel_diameter: number;
+            /** Wheelbase */
+            wheelbase: number;
+            /** Width */
+            width: number;
         };
-        /**
-         * VehicleState
-         * @description State of the chassis (0x211 byte 0).
-         * @enum {integer}
-         */
-        VehicleState: 0 | 1 | 2;
         /**
          * Warehouse
          * @description Where missions start and end: position and the yaw of the parked robot.
          */
         Warehouse: {
+            /**
+             * Name
+             * @default Warehouse
+             */
+            name: string;
             /** X */
             x: number;
             /** Y */
             y: number;
             /** Yaw */
             yaw: number;
-            /**
-             * Name
-             * @default Warehouse
-             */
-            name: string;
         };
         /**
          * Waypoint
          * @description A point of the road part, in `map`, with the speed wanted on the way to it, m/s.
          */
         Waypoint: {
-            /** X */
-            x: number;
-            /** Y */
-            y: number;
             /**
              * Speed
              * @default 0.8
              */
             speed: number;
+            /** X */
+            x: number;
+            /** Y */
+            y: number;
         };
         /**
          * Zone
@@ -1754,16 +1862,16 @@ export interface components {
             /** Id */
             id: string;
             kind: components["schemas"]["ZoneKind"];
-            /** Polygon */
-            polygon: [
-                number,
-                number
-            ][];
             /**
              * Name
              * @default
              */
             name: string;
+            /** Polygon */
+            polygon: [
+                number,
+                number
+            ][];
         };
         /**
          * ZoneKind
@@ -1780,7 +1888,7 @@ export interface components {
 }
 export type $defs = Record<string, never>;
 export interface operations {
-    session_api_session_get: {
+    nonce_api_drive_nonce_get: {
         parameters: {
             query?: never;
             header?: never;
@@ -1795,297 +1903,26 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["SessionDocument"];
+                    "application/json": components["schemas"]["Nonce"];
                 };
             };
-        };
-    };
-    sites__api_sites_get: {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        requestBody?: never;
-        responses: {
-            /** @description Successful Response */
-            200: {
+            /** @description Any error */
+            default: {
                 headers: {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["SiteSummary"][];
+                    "application/json": components["schemas"]["ErrorDocument"];
                 };
             };
         };
     };
-    site_new_api_sites_post: {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        requestBody: {
-            content: {
-                "application/json": components["schemas"]["SiteCreate"];
-            };
-        };
-        responses: {
-            /** @description Successful Response */
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["SiteDocument"];
-                };
-            };
-            /** @description Validation Error */
-            422: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["HTTPValidationError"];
-                };
-            };
-        };
-    };
-    site_get_api_sites__id__get: {
+    read_job_api_jobs__job_id__get: {
         parameters: {
             query?: never;
             header?: never;
             path: {
-                id: string;
-            };
-            cookie?: never;
-        };
-        requestBody?: never;
-        responses: {
-            /** @description Successful Response */
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["SiteDocument"];
-                };
-            };
-            /** @description Validation Error */
-            422: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["HTTPValidationError"];
-                };
-            };
-        };
-    };
-    site_put_api_sites__id__put: {
-        parameters: {
-            query?: never;
-            header?: never;
-            path: {
-                id: string;
-            };
-            cookie?: never;
-        };
-        requestBody: {
-            content: {
-                "application/json": components["schemas"]["SiteEdit"];
-            };
-        };
-        responses: {
-            /** @description Successful Response */
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["SiteDocument"];
-                };
-            };
-            /** @description Validation Error */
-            422: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["HTTPValidationError"];
-                };
-            };
-        };
-    };
-    site_del_api_sites__id__delete: {
-        parameters: {
-            query?: never;
-            header?: never;
-            path: {
-                id: string;
-            };
-            cookie?: never;
-        };
-        requestBody?: never;
-        responses: {
-            /** @description Successful Response */
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": unknown;
-                };
-            };
-            /** @description Validation Error */
-            422: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["HTTPValidationError"];
-                };
-            };
-        };
-    };
-    site_geo_api_sites__id__geojson_get: {
-        parameters: {
-            query?: never;
-            header?: never;
-            path: {
-                id: string;
-            };
-            cookie?: never;
-        };
-        requestBody?: never;
-        responses: {
-            /** @description Successful Response */
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": {
-                        [key: string]: unknown;
-                    };
-                };
-            };
-            /** @description Validation Error */
-            422: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["HTTPValidationError"];
-                };
-            };
-        };
-    };
-    site_imp_api_sites_import_post: {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        requestBody: {
-            content: {
-                "application/json": {
-                    [key: string]: unknown;
-                };
-            };
-        };
-        responses: {
-            /** @description Successful Response */
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["SiteDocument"];
-                };
-            };
-            /** @description Validation Error */
-            422: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["HTTPValidationError"];
-                };
-            };
-        };
-    };
-    ortho_api_orthophotos_post: {
-        parameters: {
-            query: {
-                name: string;
-            };
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        requestBody?: never;
-        responses: {
-            /** @description Successful Response */
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["JobStarted"];
-                };
-            };
-            /** @description Validation Error */
-            422: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["HTTPValidationError"];
-                };
-            };
-        };
-    };
-    ortho2_api_sites__id__orthophoto_post: {
-        parameters: {
-            query?: never;
-            header?: never;
-            path: {
-                id: string;
-            };
-            cookie?: never;
-        };
-        requestBody?: never;
-        responses: {
-            /** @description Successful Response */
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["JobStarted"];
-                };
-            };
-            /** @description Validation Error */
-            422: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["HTTPValidationError"];
-                };
-            };
-        };
-    };
-    job_api_jobs__id__get: {
-        parameters: {
-            query?: never;
-            header?: never;
-            path: {
-                id: string;
+                job_id: string;
             };
             cookie?: never;
         };
@@ -2100,27 +1937,22 @@ export interface operations {
                     "application/json": components["schemas"]["Job"];
                 };
             };
-            /** @description Validation Error */
-            422: {
+            /** @description Any error */
+            default: {
                 headers: {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["HTTPValidationError"];
+                    "application/json": components["schemas"]["ErrorDocument"];
                 };
             };
         };
     };
-    tile_api_sites__id__tiles__z___x___y__png_get: {
+    latest_api_live_latest_get: {
         parameters: {
             query?: never;
             header?: never;
-            path: {
-                id: string;
-                z: number;
-                x: number;
-                y: number;
-            };
+            path?: never;
             cookie?: never;
         };
         requestBody?: never;
@@ -2131,199 +1963,26 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": unknown;
+                    "application/json": components["schemas"]["LiveTopics"];
                 };
             };
-            /** @description Validation Error */
-            422: {
+            /** @description Any error */
+            default: {
                 headers: {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["HTTPValidationError"];
+                    "application/json": components["schemas"]["ErrorDocument"];
                 };
             };
         };
     };
-    ms_api_sites__id__missions_get: {
+    read_mission_api_missions__mission_id__get: {
         parameters: {
             query?: never;
             header?: never;
             path: {
-                id: string;
-            };
-            cookie?: never;
-        };
-        requestBody?: never;
-        responses: {
-            /** @description Successful Response */
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["MissionDocument"][];
-                };
-            };
-            /** @description Validation Error */
-            422: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["HTTPValidationError"];
-                };
-            };
-        };
-    };
-    ms_new_api_sites__id__missions_post: {
-        parameters: {
-            query?: never;
-            header?: never;
-            path: {
-                id: string;
-            };
-            cookie?: never;
-        };
-        requestBody: {
-            content: {
-                "application/json": components["schemas"]["MissionCreate"];
-            };
-        };
-        responses: {
-            /** @description Successful Response */
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["MissionDocument"];
-                };
-            };
-            /** @description Validation Error */
-            422: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["HTTPValidationError"];
-                };
-            };
-        };
-    };
-    ms_row_api_sites__id__missions_for_row_post: {
-        parameters: {
-            query?: never;
-            header?: never;
-            path: {
-                id: string;
-            };
-            cookie?: never;
-        };
-        requestBody: {
-            content: {
-                "application/json": components["schemas"]["RowMissionRequest"];
-            };
-        };
-        responses: {
-            /** @description Successful Response */
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["Mission"];
-                };
-            };
-            /** @description Validation Error */
-            422: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["HTTPValidationError"];
-                };
-            };
-        };
-    };
-    ms_imp_api_sites__id__missions_import_post: {
-        parameters: {
-            query?: never;
-            header?: never;
-            path: {
-                id: string;
-            };
-            cookie?: never;
-        };
-        requestBody: {
-            content: {
-                "application/json": {
-                    [key: string]: unknown;
-                };
-            };
-        };
-        responses: {
-            /** @description Successful Response */
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["MissionDocument"];
-                };
-            };
-            /** @description Validation Error */
-            422: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["HTTPValidationError"];
-                };
-            };
-        };
-    };
-    prev_api_sites__id__preview_post: {
-        parameters: {
-            query?: never;
-            header?: never;
-            path: {
-                id: string;
-            };
-            cookie?: never;
-        };
-        requestBody: {
-            content: {
-                "application/json": components["schemas"]["PreviewRequest"];
-            };
-        };
-        responses: {
-            /** @description Successful Response */
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["Preview"];
-                };
-            };
-            /** @description Validation Error */
-            422: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["HTTPValidationError"];
-                };
-            };
-        };
-    };
-    mi_get_api_missions__id__get: {
-        parameters: {
-            query?: never;
-            header?: never;
-            path: {
-                id: string;
+                mission_id: string;
             };
             cookie?: never;
         };
@@ -2338,23 +1997,23 @@ export interface operations {
                     "application/json": components["schemas"]["MissionDocument"];
                 };
             };
-            /** @description Validation Error */
-            422: {
+            /** @description Any error */
+            default: {
                 headers: {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["HTTPValidationError"];
+                    "application/json": components["schemas"]["ErrorDocument"];
                 };
             };
         };
     };
-    mi_put_api_missions__id__put: {
+    update_mission_api_missions__mission_id__put: {
         parameters: {
             query?: never;
             header?: never;
             path: {
-                id: string;
+                mission_id: string;
             };
             cookie?: never;
         };
@@ -2373,54 +2032,52 @@ export interface operations {
                     "application/json": components["schemas"]["MissionDocument"];
                 };
             };
-            /** @description Validation Error */
-            422: {
+            /** @description Any error */
+            default: {
                 headers: {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["HTTPValidationError"];
+                    "application/json": components["schemas"]["ErrorDocument"];
                 };
             };
         };
     };
-    mi_del_api_missions__id__delete: {
+    delete_mission_api_missions__mission_id__delete: {
         parameters: {
             query?: never;
             header?: never;
             path: {
-                id: string;
+                mission_id: string;
             };
             cookie?: never;
         };
         requestBody?: never;
         responses: {
             /** @description Successful Response */
-            200: {
+            204: {
                 headers: {
                     [name: string]: unknown;
                 };
-                content: {
-                    "application/json": unknown;
-                };
+                content?: never;
             };
-            /** @description Validation Error */
-            422: {
+            /** @description Any error */
+            default: {
                 headers: {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["HTTPValidationError"];
+                    "application/json": components["schemas"]["ErrorDocument"];
                 };
             };
         };
     };
-    mi_geo_api_missions__id__geojson_get: {
+    export_mission_api_missions__mission_id__geojson_get: {
         parameters: {
             query?: never;
             header?: never;
             path: {
-                id: string;
+                mission_id: string;
             };
             cookie?: never;
         };
@@ -2437,18 +2094,55 @@ export interface operations {
                     };
                 };
             };
-            /** @description Validation Error */
-            422: {
+            /** @description Any error */
+            default: {
                 headers: {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["HTTPValidationError"];
+                    "application/json": components["schemas"]["ErrorDocument"];
                 };
             };
         };
     };
-    robot_api_robot_get: {
+    upload_new_site_api_orthophotos_post: {
+        parameters: {
+            query?: {
+                /** @description Name of the file, for people */
+                name?: string;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/octet-stream": string;
+                "image/tiff": string;
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            202: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["JobStarted"];
+                };
+            };
+            /** @description Any error */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorDocument"];
+                };
+            };
+        };
+    };
+    read_robot_api_robot_get: {
         parameters: {
             query?: never;
             header?: never;
@@ -2466,9 +2160,18 @@ export interface operations {
                     "application/json": components["schemas"]["Robot"];
                 };
             };
+            /** @description Any error */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorDocument"];
+                };
+            };
         };
     };
-    robot_site_api_robot_site_post: {
+    place_robot_api_robot_site_post: {
         parameters: {
             query?: never;
             header?: never;
@@ -2490,60 +2193,22 @@ export interface operations {
                     "application/json": components["schemas"]["Robot"];
                 };
             };
-            /** @description Validation Error */
-            422: {
+            /** @description Any error */
+            default: {
                 headers: {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["HTTPValidationError"];
+                    "application/json": components["schemas"]["ErrorDocument"];
                 };
             };
         };
     };
-    nonce_api_drive_nonce_get: {
+    list_runs_api_runs_get: {
         parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        requestBody?: never;
-        responses: {
-            /** @description Successful Response */
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["Nonce"];
-                };
+            query?: {
+                limit?: number;
             };
-        };
-    };
-    topics_api_live_topics_get: {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        requestBody?: never;
-        responses: {
-            /** @description Successful Response */
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["LiveTopics"];
-                };
-            };
-        };
-    };
-    runs__api_runs_get: {
-        parameters: {
-            query?: never;
             header?: never;
             path?: never;
             cookie?: never;
@@ -2559,9 +2224,18 @@ export interface operations {
                     "application/json": components["schemas"]["RunDocument"][];
                 };
             };
+            /** @description Any error */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorDocument"];
+                };
+            };
         };
     };
-    run_start_api_runs_post: {
+    start_run_api_runs_post: {
         parameters: {
             query?: never;
             header?: never;
@@ -2575,7 +2249,7 @@ export interface operations {
         };
         responses: {
             /** @description Successful Response */
-            200: {
+            201: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -2583,13 +2257,13 @@ export interface operations {
                     "application/json": components["schemas"]["RunDocument"];
                 };
             };
-            /** @description Validation Error */
-            422: {
+            /** @description Any error */
+            default: {
                 headers: {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["HTTPValidationError"];
+                    "application/json": components["schemas"]["ErrorDocument"];
                 };
             };
         };
@@ -2610,6 +2284,15 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["StopResult"];
+                };
+            };
+            /** @description Any error */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorDocument"];
                 };
             };
         };
@@ -2634,56 +2317,23 @@ export interface operations {
                     "application/json": components["schemas"]["ActionResult"];
                 };
             };
-            /** @description Validation Error */
-            422: {
+            /** @description Any error */
+            default: {
                 headers: {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["HTTPValidationError"];
+                    "application/json": components["schemas"]["ErrorDocument"];
                 };
             };
         };
     };
-    fake_fake__what__post: {
-        parameters: {
-            query?: {
-                i?: number;
-            };
-            header?: never;
-            path: {
-                what: string;
-            };
-            cookie?: never;
-        };
-        requestBody?: never;
-        responses: {
-            /** @description Successful Response */
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": unknown;
-                };
-            };
-            /** @description Validation Error */
-            422: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["HTTPValidationError"];
-                };
-            };
-        };
-    };
-    run_get_api_runs__id__get: {
+    read_run_api_runs__run_id__get: {
         parameters: {
             query?: never;
             header?: never;
             path: {
-                id: string;
+                run_id: string;
             };
             cookie?: never;
         };
@@ -2698,23 +2348,88 @@ export interface operations {
                     "application/json": components["schemas"]["RunDetail"];
                 };
             };
-            /** @description Validation Error */
-            422: {
+            /** @description Any error */
+            default: {
                 headers: {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["HTTPValidationError"];
+                    "application/json": components["schemas"]["ErrorDocument"];
                 };
             };
         };
     };
-    run_track_api_runs__id__track_get: {
+    camera_api_runs__run_id__camera_get: {
+        parameters: {
+            query: {
+                t_s: number;
+            };
+            header?: never;
+            path: {
+                run_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    "X-Camera-View"?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "image/jpeg": unknown;
+                };
+            };
+            /** @description Any error */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorDocument"];
+                };
+            };
+        };
+    };
+    download_api_runs__run_id__download_get: {
+        parameters: {
+            query?: {
+                format?: components["schemas"]["LogFormat"];
+            };
+            header?: never;
+            path: {
+                run_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description Any error */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorDocument"];
+                };
+            };
+        };
+    };
+    track_api_runs__run_id__track_get: {
         parameters: {
             query?: never;
             header?: never;
             path: {
-                id: string;
+                run_id: string;
             };
             cookie?: never;
         };
@@ -2729,51 +2444,18 @@ export interface operations {
                     "application/json": components["schemas"]["RunTrack"];
                 };
             };
-            /** @description Validation Error */
-            422: {
+            /** @description Any error */
+            default: {
                 headers: {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["HTTPValidationError"];
+                    "application/json": components["schemas"]["ErrorDocument"];
                 };
             };
         };
     };
-    run_cam_api_runs__id__camera_get: {
-        parameters: {
-            query: {
-                t_s: number;
-            };
-            header?: never;
-            path: {
-                id: string;
-            };
-            cookie?: never;
-        };
-        requestBody?: never;
-        responses: {
-            /** @description Successful Response */
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": unknown;
-                };
-            };
-            /** @description Validation Error */
-            422: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["HTTPValidationError"];
-                };
-            };
-        };
-    };
-    scene_scene__get: {
+    session_api_session_get: {
         parameters: {
             query?: never;
             header?: never;
@@ -2788,7 +2470,572 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": unknown;
+                    "application/json": components["schemas"]["SessionDocument"];
+                };
+            };
+            /** @description Any error */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorDocument"];
+                };
+            };
+        };
+    };
+    invite_api_session_invitations_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Invitation"];
+                };
+            };
+            /** @description Any error */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorDocument"];
+                };
+            };
+        };
+    };
+    logout_api_session_logout_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description Any error */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorDocument"];
+                };
+            };
+        };
+    };
+    list_sites_api_sites_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SiteSummary"][];
+                };
+            };
+            /** @description Any error */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorDocument"];
+                };
+            };
+        };
+    };
+    create_site_api_sites_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["SiteCreate"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SiteDocument"];
+                };
+            };
+            /** @description Any error */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorDocument"];
+                };
+            };
+        };
+    };
+    import_site_api_sites_import_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": {
+                    [key: string]: unknown;
+                };
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SiteDocument"];
+                };
+            };
+            /** @description Any error */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorDocument"];
+                };
+            };
+        };
+    };
+    read_site_api_sites__site_id__get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                site_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SiteDocument"];
+                };
+            };
+            /** @description Any error */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorDocument"];
+                };
+            };
+        };
+    };
+    update_site_api_sites__site_id__put: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                site_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["SiteEdit"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SiteDocument"];
+                };
+            };
+            /** @description Any error */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorDocument"];
+                };
+            };
+        };
+    };
+    delete_site_api_sites__site_id__delete: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                site_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description Any error */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorDocument"];
+                };
+            };
+        };
+    };
+    export_site_api_sites__site_id__geojson_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                site_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": {
+                        [key: string]: unknown;
+                    };
+                };
+            };
+            /** @description Any error */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorDocument"];
+                };
+            };
+        };
+    };
+    list_missions_api_sites__site_id__missions_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                site_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["MissionDocument"][];
+                };
+            };
+            /** @description Any error */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorDocument"];
+                };
+            };
+        };
+    };
+    create_mission_api_sites__site_id__missions_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                site_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["MissionCreate"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["MissionDocument"];
+                };
+            };
+            /** @description Any error */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorDocument"];
+                };
+            };
+        };
+    };
+    row_mission_api_sites__site_id__missions_for_row_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                site_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["RowMissionRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Mission"];
+                };
+            };
+            /** @description Any error */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorDocument"];
+                };
+            };
+        };
+    };
+    import_mission_api_sites__site_id__missions_import_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                site_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": {
+                    [key: string]: unknown;
+                };
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["MissionDocument"];
+                };
+            };
+            /** @description Any error */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorDocument"];
+                };
+            };
+        };
+    };
+    upload_for_site_api_sites__site_id__orthophoto_post: {
+        parameters: {
+            query?: {
+                /** @description Name of the file, for people */
+                name?: string;
+            };
+            header?: never;
+            path: {
+                site_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/octet-stream": string;
+                "image/tiff": string;
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            202: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["JobStarted"];
+                };
+            };
+            /** @description Any error */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorDocument"];
+                };
+            };
+        };
+    };
+    preview_mission_api_sites__site_id__preview_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                site_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["PreviewRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Preview"];
+                };
+            };
+            /** @description Any error */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorDocument"];
+                };
+            };
+        };
+    };
+    tile_api_sites__site_id__tiles__z___x___y__png_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                site_id: string;
+                z: number;
+                x: number;
+                y: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "image/png": unknown;
+                };
+            };
+            /** @description Any error */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorDocument"];
+                };
+            };
+        };
+    };
+    enter_enter_get: {
+        parameters: {
+            query: {
+                token: string;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            303: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description Any error */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorDocument"];
                 };
             };
         };

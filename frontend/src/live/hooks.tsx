@@ -1,26 +1,39 @@
 import { type ReactNode, createContext, useCallback, useContext, useEffect, useMemo, useSyncExternalStore } from "react";
 
 import type { TopicName, Topics } from "./message";
+import { RunHistory } from "./history";
 import { LiveSocket, type LinkState, liveUrl } from "./socket";
 import { LiveStore } from "./store";
 
 interface Live {
   store: LiveStore;
   socket: LiveSocket;
+  history: RunHistory;
 }
 
 const LiveContext = createContext<Live | null>(null);
 
 export function LiveProvider({ children }: { children: ReactNode }) {
-  const live = useMemo(() => {
-    const store = new LiveStore();
-    return { store, socket: new LiveSocket(store, liveUrl(window.location)) };
-  }, []);
+  const live = useMemo(newLive, []);
   useEffect(() => {
     live.socket.open();
     return () => live.socket.close();
   }, [live]);
+  useEffect(() => remember(live), [live]);
   return <LiveContext.Provider value={live}>{children}</LiveContext.Provider>;
+}
+
+function newLive(): Live {
+  const store = new LiveStore();
+  return { store, socket: new LiveSocket(store, liveUrl(window.location)), history: new RunHistory() };
+}
+
+function remember({ store, history }: Live): () => void {
+  const ends = [
+    store.subscribe("nav/status", () => history.add(store.newest("nav/status")!.data)),
+    store.subscribe("nav/switch", () => history.addSwitch(store.newest("nav/switch")!.data)),
+  ];
+  return () => ends.forEach((end) => end());
 }
 
 function useLive(): Live {
@@ -31,6 +44,9 @@ function useLive(): Live {
 
 /** For drawings that follow every message by themselves. */
 export const useLiveStore = () => useLive().store;
+
+/** What this page remembers of the run under way; it changes in place. */
+export const useRunHistory = () => useLive().history;
 
 /** Words need not change more often than eyes can read. */
 const READABLE_MS = 150;

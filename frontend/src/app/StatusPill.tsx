@@ -1,0 +1,27 @@
+import { useQuery } from "@tanstack/react-query";
+
+import { robotQuery } from "../api/queries";
+import { useFresh, useLink, useTopic } from "../live/hooks";
+import { STATE_TONES, STATE_WORDS, type Tone } from "../ui/words";
+import css from "./shell.module.css";
+
+/** What the robot does, or why nothing is known of it. */
+export function StatusPill() {
+  const [tone, words] = usePill();
+  return (
+    <span className={css.pill} role="status">
+      <span className={css.dot} data-tone={tone} />
+      {words}
+    </span>
+  );
+}
+
+function usePill(): [Tone, string] {
+  const link = useLink();
+  const fresh = useFresh("nav/status");
+  const status = useTopic("nav/status");
+  const simulated = useQuery(robotQuery).data?.simulated;
+  if (link !== "open") return ["bad", "No link to the station"];
+  if (!fresh || !status) return ["bad", "No news from the robot"];
+  return [STATE_TONES[status.state], `${STATE_WORDS[status.state]}${simulated ? " · simulator" : ""}`];
+}

@@ -1,0 +1,51 @@
+import type { MissionDocument, Preview, SiteDocument } from "../api/types";
+import { useFresh, useTopic } from "../live/hooks";
+import { way } from "../ui/format";
+import { Reasons } from "../ui/Reasons";
+import { MODE_COLORS, headline } from "../ui/words";
+import { Controls } from "./Controls";
+import css from "./drive.module.css";
+
+interface Props {
+  document: SiteDocument;
+  missions: MissionDocument[];
+  mission: MissionDocument | null;
+  preview: Preview | undefined;
+  onMission: (id: string) => void;
+}
+
+/** What the robot does and why, in one line; beside it what the operator can do about it. */
+export function Banner(props: Props) {
+  const status = useTopic("nav/status");
+  const fresh = useFresh("nav/status");
+  const names = new Map(props.document.site.rows.map(({ id, name }) => [id, name]));
+  const color = fresh && status?.state === "driving" ? MODE_COLORS[status.mode] : "transparent";
+  return (
+    <section className={css.banner} style={{ "--mode": color } as React.CSSProperties}>
+      <div className={css.words} aria-live="polite">
+        <h1>{fresh && status ? headline(status, names) : "No news from the robot"}</h1>
+        <p>{fresh && status ? why(status.mode_reason) : "Controls are off until data arrive. STOP still works."}</p>
+      </div>
+      {status && fresh && status.run_id && <Progress progress={status.progress} remaining={status.remaining} />}
+      <Controls {...props} />
+      {fresh && status && status.events.length > 0 && (
+        <div className={css.events}>
+          <Reasons reasons={status.events.map(({ text }) => text)} tone={status.events.some(({ effect }) => effect === "STOP") ? "bad" : "warn"} />
+        </div>
+      )}
+    </section>
+  );
+}
+
+const why = (reason: string) => reason.charAt(0).toUpperCase() + reason.slice(1);
+
+function Progress({ progress, remaining }: { progress: number; remaining: number }) {
+  return (
+    <div className={css.progress}>
+      <progress value={progress} max={1} aria-label="Driven part of the mission" />
+      <span>
+        {Math.round(progress * 100)} % · {way(remaining)} to go
+      </span>
+    </div>
+  );
+}

@@ -1,0 +1,34 @@
+import { ActionIcon } from "@mantine/core";
+import { IconCurrentLocation } from "@tabler/icons-react";
+import { useCallback, useState } from "react";
+
+import type { MissionPlan, Robot, SiteDocument } from "../api/types";
+import { FitTo } from "../map/FitTo";
+import { LiveDrivenLayer } from "../map/LiveDrivenLayer";
+import { LiveRobotLayer } from "../map/LiveRobotLayer";
+import { MapView } from "../map/MapView";
+import { OrthophotoLayer } from "../map/OrthophotoLayer";
+import { PlanLayer } from "../map/PlanLayer";
+import { SiteLayer } from "../map/SiteLayer";
+import { firstExtent } from "../map/fit";
+import { useSiteFrame } from "../map/useSiteFrame";
+import css from "./drive.module.css";
+
+export function DriveMap({ document, robot, plan }: { document: SiteDocument; robot: Robot; plan: MissionPlan | null }) {
+  const frame = useSiteFrame(document.site.datum);
+  const [follow, setFollow] = useState(false);
+  const extent = useCallback(() => firstExtent(document.site, document.orthophoto, frame), [document, frame]);
+  return (
+    <MapView className={css.map}>
+      {document.orthophoto && <OrthophotoLayer siteId={document.id} orthophoto={document.orthophoto} />}
+      <SiteLayer site={document.site} frame={frame} />
+      <PlanLayer plan={plan} frame={frame} />
+      <LiveDrivenLayer frame={frame} />
+      <LiveRobotLayer frame={frame} vehicle={robot.vehicle} follow={follow} />
+      <FitTo extent={extent} subject={document.id} />
+      <ActionIcon className={css.follow} aria-pressed={follow} onClick={() => setFollow(!follow)} aria-label="Follow the robot" title="Follow the robot">
+        <IconCurrentLocation size={26} />
+      </ActionIcon>
+    </MapView>
+  );
+}

@@ -1,0 +1,62 @@
+import type { ReactNode } from "react";
+
+import type { NavStatus } from "../api/types";
+import { useFresh, useTopic } from "../live/hooks";
+import { centimetres, degrees, duration, metres, percent, seconds, speed, volts } from "../ui/format";
+import { type Tone, fixWords, positionSigma } from "../ui/words";
+import css from "./drive.module.css";
+
+/** Battery levels of the Scout 2.0 manual: warning and under-voltage, V. */
+const BATTERY_WARN = 23.5;
+const BATTERY_LOW = 22;
+const LATERAL_WARN = 0.3;
+
+/** The numbers to drive by. Old numbers are struck out of view, not shown as if they held. */
+export function Gauges() {
+  const status = useTopic("nav/status");
+  const fresh = useFresh("nav/status");
+  const s = fresh ? status : null;
+  return (
+    <div className={css.gauges}>
+      <Gauge name="Speed" value={speed(s?.v)} note={s && s.state === "driving" ? `of ${speed(s.speed_limit)}, ${s.speed_reason}` : ""} />
+      <Gauge name="Off the line" value={centimetres(s?.lateral_error)} note={side(s?.lateral_error)} tone={lateralTone(s?.lateral_error)} />
+      <Gauge name="Heading off" value={degrees(s?.heading_error)} />
+      <Gauge name="GNSS" value={s ? fixWords(s.gnss_quality) : "–"} note={s ? gnssNote(s) : ""} tone={gnssTone(s)} />
+      <Gauge name="Battery" value={volts(s?.battery_v)} tone={batteryTone(s?.battery_v)} />
+      <Gauge name="Guard" value={s?.guard ?? "–"} note={s?.guard_reason} tone={s?.guard === "latched" ? "bad" : undefined} />
+      <Gauge name="Mission" value={percent(s?.run_id ? s.progress : null)} note={s?.run_id ? `${metres(s.remaining)} to go` : ""} />
+      <Gauge name="Time left" value={duration(s ? timeLeft(s) : null)} />
+    </div>
+  );
+}
+
+function Gauge({ name, value, note, tone }: { name: string; value: ReactNode; note?: string; tone?: Tone }) {
+  return (
+    <div className={css.gauge} data-tone={tone}>
+      <span>{name}</span>
+      <b>{value}</b>
+      <small>{note}</small>
+    </div>
+  );
+}
+
+const side = (lateral: number | null | undefined) => (!lateral ? "" : lateral > 0 ? "left of it" : "right of it");
+
+const lateralTone = (lateral: number | null | undefined): Tone | undefined =>
+  lateral && Math.abs(lateral) > LATERAL_WARN ? "warn" : undefined;
+
+function gnssNote({ gnss_age_s, pose }: NavStatus): string {
+  return `±${centimetres(positionSigma(pose?.covariance))}, ${seconds(gnss_age_s)} old`;
+}
+
+const gnssTone = (s: NavStatus | null): Tone | undefined => (!s ? undefined : s.gnss_quality === 0 || (s.gnss_age_s ?? 9) > 1 ? "warn" : undefined);
+
+function batteryTone(voltage: number | null | undefined): Tone | undefined {
+  if (!voltage || voltage > BATTERY_WARN) return undefined;
+  return voltage > BATTERY_LOW ? "warn" : "bad";
+}
+
+/** At the present speed; nothing to say while standing. */
+function timeLeft({ run_id, remaining, v }: NavStatus): number | null {
+  return run_id && Math.abs(v) > 0.1 ? remaining / Math.abs(v) : null;
+}

@@ -1,0 +1,3 @@
+export function PlanPage(_: { siteId?: string; runId?: string }) {
+  return null;
+}

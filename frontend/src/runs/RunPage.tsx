@@ -1,0 +1,3 @@
+export function RunPage(_: { siteId?: string; runId?: string }) {
+  return null;
+}

@@ -1,0 +1,3 @@
+export function RunsPage(_: { siteId?: string; runId?: string }) {
+  return null;
+}

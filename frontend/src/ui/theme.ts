@@ -1,0 +1,17 @@
+import { ActionIcon, Button, Modal, NumberInput, SegmentedControl, Select, TextInput, createTheme } from "@mantine/core";
+
+/** Sizes for gloved fingers: nothing to press is lower than 44 px. Colours stand in tokens.css. */
+export const theme = createTheme({
+  primaryColor: "green",
+  cursorType: "pointer",
+  components: {
+    Button: Button.extend({ defaultProps: { size: "md" }, styles: { root: { minHeight: 44 } } }),
+    ActionIcon: ActionIcon.extend({ defaultProps: { size: 44, variant: "default" } }),
+    TextInput: TextInput.extend({ defaultProps: { size: "md" } }),
+    NumberInput: NumberInput.extend({ defaultProps: { size: "md" } }),
+    Select: Select.extend({ defaultProps: { size: "md", allowDeselect: false } }),
+    SegmentedControl: SegmentedControl.extend({ defaultProps: { size: "md" } }),
+    // Locking the page's scroll would inject a style element, which the CSP forbids.
+    Modal: Modal.extend({ defaultProps: { centered: true, lockScroll: false, size: "lg" } }),
+  },
+});
