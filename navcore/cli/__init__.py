@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import typer
 
+from navcore.cli import train
 from navcore.cli.decode import decode_app
 
 app = typer.Typer(
     name="rowpilot", help="Onboard operator station for orchard and vineyard robots.", no_args_is_help=True
 )
 app.add_typer(decode_app, name="decode")
+train.register(app)
 
 
 @app.callback()

@@ -1,0 +1,89 @@
+"""From the network's maps to boxes: peaks, boxes, suppression of doubles. NumPy only."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from navcore.messages import DetectedObject, ObjectKind
+
+Singles = NDArray[np.float32]
+Floats = NDArray[np.float64]
+
+# Order of the network's classes.
+KINDS = (ObjectKind.TRUNK, ObjectKind.POST)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DecodingParams:
+    """What counts as found.
+
+    Attributes:
+        threshold: least confidence, 0 to 1.
+        max_objects: best so many are kept.
+        max_overlap: two boxes with a higher intersection over union are one object, 0 to 1.
+        foot_distance_px: two feet closer than that, or than half the wider box, are one object.
+    """
+
+    threshold: float = 0.3
+    max_objects: int = 60
+    max_overlap: float = 0.6
+    foot_distance_px: float = 4.0
+
+
+def decode(peaks: Singles, boxes: Singles, stride: int, params: DecodingParams) -> tuple[Floats, Floats, list[int]]:
+    """Boxes (N, 4), confidences (N,) and class indices, best first; network pixels.
+
+    `peaks` (2, h, w) are probabilities at local maxima and 0 elsewhere, `boxes` (4, h, w) the foot's u and v from the
+    cell's middle and the logarithms of width and height, in cells.
+    """
+    kinds, rows, columns = np.nonzero(peaks >= params.threshold)
+    confidence = peaks[kinds, rows, columns].astype(np.float64)
+    best = np.argsort(-confidence, kind="stable")[: params.max_objects]
+    kinds, rows, columns, confidence = kinds[best], rows[best], columns[best], confidence[best]
+    du, dv, log_width, log_height = boxes[:, rows, columns].astype(np.float64)
+    half, height = np.exp(np.clip(log_width, -4, 6)) / 2, np.exp(np.clip(log_height, -4, 6))
+    u, v = columns + 0.5 + du, rows + 0.5 + dv
+    found = np.column_stack((u - half, v - height, u + half, v)) * stride
+    kept = suppress(found, params)
+    return found[kept], confidence[kept], [int(kinds[i]) for i in kept]
+
+
+def suppress(boxes: Floats, params: DecodingParams) -> list[int]:
+    """Indices of the boxes (N, 4), best first, that are not a double of a better one; of whatever class."""
+    kept: list[int] = []
+    for i in range(len(boxes)):
+        if not kept or not np.any(_same(boxes[kept], boxes[i], params)):
+            kept.append(i)
+    return kept
+
+
+def _same(others: Floats, box: Floats, params: DecodingParams) -> NDArray[np.bool_]:
+    wider = np.maximum(others[:, 2] - others[:, 0], box[2] - box[0])
+    du = (others[:, 0] + others[:, 2] - box[0] - box[2]) / 2
+    feet = np.hypot(du, others[:, 3] - box[3]) < np.maximum(params.foot_distance_px, wider / 2)
+    return np.asarray(feet | (overlap(others, box) > params.max_overlap))
+
+
+def overlap(boxes: Floats, box: Floats) -> Floats:
+    """Intersection over union of boxes (N, 4) with one box (4,); shape (N,)."""
+    width = np.minimum(boxes[:, 2], box[2]) - np.maximum(boxes[:, 0], box[0])
+    height = np.minimum(boxes[:, 3], box[3]) - np.maximum(boxes[:, 1], box[1])
+    common = np.maximum(width, 0.0) * np.maximum(height, 0.0)
+    area = (boxes[:, 2] - boxes[:, 0]) * (boxes[:, 3] - boxes[:, 1]) + (box[2] - box[0]) * (box[3] - box[1])
+    return np.asarray(common / np.maximum(area - common, 1e-9))
+
+
+def detected_objects(
+    boxes: Floats, confidence: Floats, kinds: list[int], *, scale: float, width_px: int, height_px: int
+) -> tuple[DetectedObject, ...]:
+    """Boxes of the network, `scale` times as large, cut at the picture's edges; empty ones are dropped."""
+    edges = np.array((width_px, height_px, width_px, height_px), dtype=np.float64)
+    cut = np.clip(boxes * scale, 0.0, edges).tolist()
+    return tuple(
+        DetectedObject(kind=KINDS[k], confidence=float(c), x1=x1, y1=y1, x2=x2, y2=y2)
+        for (x1, y1, x2, y2), c, k in zip(cut, confidence, kinds, strict=True)
+        if x2 > x1 and y2 > y1
+    )
