@@ -1,0 +1,259 @@
+"""The pose filter: wheels and gyro carry the pose, GNSS and rows correct it, each at its time of capture."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from navcore.chassis.protocol import ChassisState
+from navcore.geometry.geodesy import EnuFrame
+from navcore.geometry.se2 import SE2
+from navcore.localization.belief import GYRO_BIAS, YAW, Belief, X, Y
+from navcore.localization.belief_history import BeliefHistory, Event
+from navcore.localization.correction import correct
+from navcore.localization.dead_reckoning import DeadReckoning, DeadReckoningParams
+from navcore.localization.filter_start import FilterStart, FilterStartParams
+from navcore.localization.filter_status import FilterStatus
+from navcore.localization.gnss_correction import GnssCorrection, GnssCorrectionParams
+from navcore.localization.gnss_noise import GnssNoise, GnssNoiseParams
+from navcore.localization.motion_model import MotionModel, MotionParams
+from navcore.localization.row_correction import RowCorrection, RowCorrectionParams
+from navcore.localization.verdict import Evidence, Verdict
+from navcore.messages import FixQuality, GnssFix, ImuSample, PoseEstimate, RowObservation
+
+NS = 1e-9
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PoseFilterParams:
+    """Parameters of `PoseFilter`.
+
+    Attributes:
+        history_s: how late a measurement may be; 0.1 to 10 s. Running that much again costs about 10 us a sample.
+        future_s: a measurement stamped so far after the newest input is no evidence.
+    """
+
+    motion: MotionParams = field(default_factory=MotionParams)
+    noise: GnssNoiseParams = field(default_factory=GnssNoiseParams)
+    gnss: GnssCorrectionParams = field(default_factory=GnssCorrectionParams)
+    row: RowCorrectionParams = field(default_factory=RowCorrectionParams)
+    start: FilterStartParams = field(default_factory=FilterStartParams)
+    odometry: DeadReckoningParams = field(default_factory=DeadReckoningParams)
+    history_s: float = 2.0
+    future_s: float = 0.2
+
+
+class PoseFilter:
+    """Extended Kalman filter over pose, gyro bias, wheel scale, slow GNSS error and row shift.
+
+    It takes no clock: all times come with the inputs. The same inputs in the same order give the same bits.
+
+    Args:
+        frame: the site's ENU frame, which is `map`.
+    """
+
+    def __init__(self, frame: EnuFrame, params: PoseFilterParams | None = None) -> None:
+        self._frame = frame
+        self._params = p = params or PoseFilterParams()
+        noise = GnssNoise(p.noise)
+        self._noise = noise
+        self._motion = MotionModel(p.motion, noise)
+        self._gnss = GnssCorrection(p.gnss, noise)
+        self._row = RowCorrection(p.row)
+        self._start = FilterStart(p.start, p.gnss, noise)
+        self._odometry = DeadReckoning(p.odometry)
+        self._history = BeliefHistory(round(p.history_s / NS), self._motion.propagate)
+        self._v_wheel = 0.0
+        self._rate = 0.0
+        self._newest_ns: dict[Evidence, int] = {}
+        self._accepted: Counter[str] = Counter()
+        self._rejected: Counter[str] = Counter()
+        self._relocations = 0
+        self._reason = "no position yet"
+
+    def add_chassis(self, state: ChassisState) -> None:
+        """Wheel odometry."""
+        if not self._is_sound(Evidence.INPUT, state.stamp_ns, (state.v, state.omega)):
+            return
+        v, omega = state.v, state.omega
+        self._odometry.add_wheels(state.stamp_ns, v, omega)
+        self._v_wheel = v
+
+        def hold(b: Belief) -> list[Verdict]:
+            b.v_wheel, b.omega_wheel = v, omega
+            if v != 0.0 or omega != 0.0 or b.moved_ns == 0:
+                b.moved_ns = state.stamp_ns
+            return []
+
+        self._history.add(Event(state.stamp_ns, hold, hold))
+
+    def add_imu(self, sample: ImuSample) -> None:
+        """Turn rate about the vertical axis."""
+        if not self._is_sound(Evidence.INPUT, sample.stamp_ns, (sample.wz,)):
+            return
+        self._odometry.add_gyro(sample.stamp_ns, sample.wz)
+        self._rate = sample.wz
+
+        def hold(b: Belief) -> list[Verdict]:
+            b.gyro, b.gyro_ns = sample.wz, sample.stamp_ns
+            return []
+
+        def apply(b: Belief) -> list[Verdict]:
+            self._learn_bias(b, sample.wz)
+            return hold(b)
+
+        self._history.add(Event(sample.stamp_ns, apply, hold))
+
+    def add_gnss(self, fix: GnssFix) -> None:
+        """A fix of the receiver; starts the filter where it has not started yet."""
+        numbers = (fix.lat_deg, fix.lon_deg, fix.height_m, fix.std_east_m, fix.std_north_m, fix.heading_rad,
+                   fix.heading_std_rad, fix.speed, fix.course_rad)  # fmt: skip
+        if not self._is_sound(Evidence.POSITION, fix.stamp_ns, numbers):
+            return
+        east, north = self._place(fix)
+        if self._history.newest is None:
+            self._try_start(fix, east, north)
+            return
+
+        def apply(b: Belief) -> list[Verdict]:
+            return self._gnss.apply(b, fix, east, north, self._motion.velocity(b)[1])
+
+        self._count(self._history.add(Event(fix.stamp_ns, apply)), fix.stamp_ns)
+
+    def add_row(self, seen: RowObservation, line: SE2) -> None:
+        """A row seen by a camera; `line` is a point of its centre line in `map` and its direction, either way."""
+        numbers = (seen.offset, seen.heading, seen.offset_std, seen.heading_std, line.x, line.y, line.yaw)
+        if not self._is_sound(Evidence.ROW, seen.stamp_ns, numbers) or self._history.newest is None:
+            return
+        event = Event(seen.stamp_ns, lambda b: [self._row.apply(b, seen, line)])
+        self._count(self._history.add(event), seen.stamp_ns)
+
+    def restart(self, reason: str) -> None:
+        """Forget the pose and wait for a new position and heading, at an operator's word."""
+        self._history.stop()
+        self._reason = reason
+
+    def estimate(self, now_ns: int) -> PoseEstimate | None:
+        """Pose predicted to `now_ns`, None until position and heading are known."""
+        belief = self._history.at(now_ns)
+        if belief is None:
+            return None
+        v, omega, _ = self._motion.velocity(belief)
+        covariance = belief.cov[: YAW + 1, : YAW + 1]
+        return PoseEstimate(
+            stamp_ns=now_ns,
+            x=float(belief.mean[X]),
+            y=float(belief.mean[Y]),
+            yaw=float(belief.mean[YAW]),
+            v=v,
+            omega=omega,
+            covariance=tuple(float(c) for c in covariance.ravel()),
+            source=self._source(belief),
+        )
+
+    def odom_at(self, stamp_ns: int) -> SE2:
+        """Dead-reckoned pose in `odom`, which drifts but never jumps."""
+        return self._odometry.pose_at(stamp_ns)
+
+    def status(self, now_ns: int) -> FilterStatus:
+        """What is used, what is rejected and why."""
+        newest = self._history.newest
+        belief = None if newest is None else self._history.at(max(now_ns, newest.stamp_ns))
+        return FilterStatus(
+            stamp_ns=now_ns,
+            ready=belief is not None,
+            reason=self._reason,
+            quality=belief.quality if belief else FixQuality.NONE,
+            fix_age_s=(now_ns - belief.fix_ns) * NS if belief else None,
+            heading_age_s=self._age(now_ns, Evidence.HEADING, Evidence.COURSE),
+            row_age_s=self._age(now_ns, Evidence.ROW),
+            position_std=_worst_std(belief) if belief else None,
+            yaw_std=math.sqrt(belief.cov[YAW, YAW]) if belief else None,
+            dead_reckoned=belief.distance if belief else 0.0,
+            position_doubt_s=_since(now_ns, belief.doubt_ns if belief else None),
+            heading_doubt_s=_since(now_ns, belief.heading_doubt_ns if belief else None),
+            relocations=self._relocations,
+            accepted=dict(sorted(self._accepted.items())),
+            rejected=dict(sorted(self._rejected.items())),
+        )
+
+    def _try_start(self, fix: GnssFix, east: float | None, north: float | None) -> None:
+        if east is None or north is None:
+            self._reason = "no position yet"
+            return
+        belief = self._start.belief(fix, east, north, self._v_wheel, self._rate)
+        if isinstance(belief, str):
+            self._reason = belief
+            return
+        self._reason = ""
+        self._history.start(belief)
+        self._count([Verdict(Evidence.POSITION, True), Verdict(Evidence.HEADING, True)], fix.stamp_ns)
+
+    def _place(self, fix: GnssFix) -> tuple[float | None, float | None]:
+        if fix.lat_deg is None or fix.lon_deg is None or not self._noise.is_usable(fix.quality):
+            return None, None
+        height = self._frame.height_m if fix.height_m is None else fix.height_m
+        east, north, _ = self._frame.to_enu(fix.lat_deg, fix.lon_deg, height)
+        return float(east), float(north)
+
+    def _learn_bias(self, b: Belief, rate: float) -> None:
+        """Standing still, the gyro shows nothing but its bias."""
+        if b.gyro_ns is None or not self._motion.is_still(b, b.stamp_ns):
+            return
+        dt = max((b.stamp_ns - b.gyro_ns) * NS, 1e-3)
+        H = np.zeros((1, len(b.mean)))
+        H[0, GYRO_BIAS] = 1.0
+        R = np.array(((self._params.motion.gyro_noise**2 / dt,),))
+        correct(b, H, np.array((rate - b.mean[GYRO_BIAS],)), R)
+
+    def _is_sound(self, evidence: Evidence, stamp_ns: int, numbers: Iterable[float | None]) -> bool:
+        reason = self._unsound(evidence, stamp_ns, numbers)
+        if reason:
+            self._rejected[f"{evidence}: {reason}"] += 1
+            self._reason = f"{evidence} refused: {reason}"
+        return not reason
+
+    def _unsound(self, evidence: Evidence, stamp_ns: int, numbers: Iterable[float | None]) -> str:
+        if not all(n is None or math.isfinite(n) for n in numbers):
+            return "not finite"
+        newest_ns = self._history.newest_ns
+        if newest_ns is None:
+            return ""
+        if stamp_ns < self._history.oldest_ns:
+            return "too late"
+        ahead = evidence is not Evidence.INPUT and stamp_ns - newest_ns > self._params.future_s / NS
+        return "stamped in the future" if ahead else ""
+
+    def _count(self, verdicts: list[Verdict], stamp_ns: int) -> None:
+        for verdict in verdicts:
+            if verdict.accepted:
+                self._accepted[verdict.evidence] += 1
+                self._newest_ns[verdict.evidence] = stamp_ns
+                self._relocations += bool(verdict.reason)
+            else:
+                self._rejected[verdict.evidence] += 1
+        reasons = [v.reason for v in verdicts if v.reason]
+        self._reason = "; ".join(reasons)
+
+    def _age(self, now_ns: int, *evidence: Evidence) -> float | None:
+        stamps = [self._newest_ns[e] for e in evidence if e in self._newest_ns]
+        return (now_ns - max(stamps)) * NS if stamps else None
+
+    def _source(self, b: Belief) -> str:
+        fresh = (b.stamp_ns - b.fix_ns) * NS < 1.0
+        position = b.quality.name.lower() if fresh else "dead_reckoning"
+        return f"{position}+gyro" if self._motion.uses_gyro(b) else f"{position}+wheels"
+
+
+def _since(now_ns: int, since_ns: int | None) -> float:
+    return 0.0 if since_ns is None else max(0.0, (now_ns - since_ns) * NS)
+
+
+def _worst_std(b: Belief) -> float:
+    """Square root of the larger eigenvalue of the position's covariance."""
+    a, d, c = float(b.cov[X, X]), float(b.cov[Y, Y]), float(b.cov[X, Y])
+    return math.sqrt(0.5 * (a + d) + math.hypot(0.5 * (a - d), c))
