@@ -182,9 +182,13 @@ def _segment_headings(steps: Floats, lengths: Floats) -> Floats:
 
 
 def _vertex_curvature(heading: Floats, lengths: Floats) -> Floats:
-    """Turn at each vertex over the mean length of its two segments; the ends repeat their neighbours."""
-    if len(heading) < 2:
-        return np.zeros(len(heading) + 1)
-    spans = np.maximum(0.5 * (lengths[1:] + lengths[:-1]), 1e-6)
-    inner = wrap_all(np.diff(heading)) / spans
-    return np.concatenate((inner[:1], inner, inner[-1:]))
+    """Turn at each vertex over the mean length of its two segments; the ends repeat their neighbours.
+
+    Segments without length do not count: their two points have one curvature.
+    """
+    real = lengths > 0.0
+    turns = wrap_all(np.diff(heading[real]))
+    spans = 0.5 * (lengths[real][1:] + lengths[real][:-1])
+    inner = turns / np.maximum(spans, 1e-6) if len(turns) else np.zeros(1)
+    vertices = np.concatenate((inner[:1], inner, inner[-1:]))
+    return np.asarray(vertices[np.concatenate(((0,), np.cumsum(real)))])
