@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import typer
 
-from navcore.cli import train
+from navcore.cli import dataset, train
 from navcore.cli.decode import decode_app
 
 app = typer.Typer(
     name="rowpilot", help="Onboard operator station for orchard and vineyard robots.", no_args_is_help=True
 )
 app.add_typer(decode_app, name="decode")
+dataset.register(app)
 train.register(app)
 
 

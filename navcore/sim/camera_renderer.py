@@ -55,7 +55,9 @@ class Scene:
         self.tables, self.lighting = build_tables(light), daylight(light)
         noise = ground_noise(orchard.params.seed)
         self.ground: Ground = build_ground(orchard, noise, tint)
-        self._shadows = ShadowMap(self.chunks, self.atlas, np.array(self.lighting.source)) if self.lighting.shadows else None
+        self._shadows = (
+            ShadowMap(self.chunks, self.atlas, np.array(self.lighting.source)) if self.lighting.shadows else None
+        )
 
     def shadow(self, x: float, y: float) -> Shadow:
         """Shadows around a place; an empty map where there is no sun."""
@@ -71,9 +73,10 @@ class CameraRenderer:
         self, orchard: Orchard, camera: PinholeCamera, light: LightParams, params: RenderParams | None = None, *,
         scene: Scene | None = None,
     ) -> None:  # fmt: skip
-        """`scene` may be shared with a second camera of the same orchard and light."""
+        """`scene` may be shared by cameras of one orchard and sky; each has its own exposure, noise and blur."""
         self._scene = scene or Scene(orchard, light)
         self._camera, self._light, self._params = camera, light, params or RenderParams()
+        self._lighting = daylight(light)
         self._layers = new_layers(camera.width_px, camera.height_px)
         self._queue = new_queue(40_000)
 
@@ -82,7 +85,7 @@ class CameraRenderer:
         scene, layers = self._scene, self._layers
         view = self._view(truth)
         lamp = (view.centre[0], view.centre[1], view.centre[2] - 0.15)
-        lighting = with_lamp(scene.lighting, self._light, lamp, view.forward)
+        lighting = with_lamp(self._lighting, self._light, lamp, view.forward)
         self._draw(view, lighting)
         rng = np.random.default_rng((self._light.seed, frame_index))
         picture = np.empty((view.height, view.width, 3), dtype=np.uint8)

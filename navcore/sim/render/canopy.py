@@ -32,8 +32,10 @@ def _spots(orchard: Orchard, per_m: Floats, rng: np.random.Generator) -> tuple[F
     length = np.linalg.norm(d, axis=1)
     line = np.repeat(np.arange(len(ends)), np.rint(length * per_m).astype(np.int64))
     t = rng.uniform(0.0, 1.0, len(line))
-    return (ends[:, :2] + 0.0)[line] + t[:, None] * d[line], (d / np.maximum(length, 1e-9)[:, None])[line], (
-        orchard.line_reach[line]
+    return (
+        (ends[:, :2] + 0.0)[line] + t[:, None] * d[line],
+        (d / np.maximum(length, 1e-9)[:, None])[line],
+        (orchard.line_reach[line]),
     )
 
 

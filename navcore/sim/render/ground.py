@@ -66,7 +66,10 @@ class Ground(NamedTuple):
 
 def build_ground(orchard: Orchard, noise: Floats32, tint: GroundTint | None) -> Ground:
     """The ground of an orchard."""
-    lines, roads = _stretches(orchard.plant_lines, orchard.line_reach), _stretches(orchard.roads, orchard.roads[:, 4:])
+    lines, roads = (
+        _stretches(orchard.plant_lines, orchard.line_reach),
+        _stretches(orchard.roads, orchard.roads[:, 4:]),
+    )
     segments = np.concatenate((orchard.plant_lines, orchard.roads[:, :4], np.zeros((1, 4)))).reshape(-1, 2)
     low, high = segments.min(axis=0) - MARGIN_M, segments.max(axis=0) + MARGIN_M
     columns, rows = (int(n) for n in np.ceil((high - low) / CELL_M))

@@ -63,7 +63,9 @@ class Tables(NamedTuple):
 def daylight(light: LightParams) -> Lighting:
     """Sun and sky; the lamp's place is filled in per frame."""
     el = light.sun_elevation
-    sun = np.array((math.cos(el) * math.cos(light.sun_azimuth), math.cos(el) * math.sin(light.sun_azimuth), math.sin(el)))
+    sun = np.array(
+        (math.cos(el) * math.cos(light.sun_azimuth), math.cos(el) * math.sin(light.sun_azimuth), math.sin(el))
+    )
     through = 1.0 - 0.97 * min(max(0.0, light.cloud - 0.5) * 2.0, 1.0)
     low = math.exp(-4.0 * el)
     warm = np.array((1.0, 0.93 - 0.14 * low, 0.82 - 0.36 * low))
@@ -87,7 +89,7 @@ def with_lamp(lighting: Lighting, light: LightParams, place: Vector, forward: Ve
     """At night: the robot's lamp at `place`, shining along `forward`."""
     if not light.night:
         return lighting
-    colour = vector(np.array((1.0, 0.94, 0.84)) * 9.0 * light.lamp)
+    colour = vector(np.array((1.0, 0.94, 0.84)) * 45.0 * light.lamp)
     return lighting._replace(source=(*place, 1.0), beam=forward, direct=colour)
 
 

@@ -107,7 +107,9 @@ def _wires(orchard: Orchard) -> Floats:
             x, y = x0 + t * (x1 - x0) + left * nx, y0 + t * (y1 - y0) + left * ny
             z = np.full(n, height)
             size = np.full((n, 2), _WIRE_RADIUS_M)
-            pieces.append(np.column_stack((x[:-1], y[:-1], z, x[1:], y[1:], z, size, np.full(n, float(Material.WIRE)))))
+            pieces.append(
+                np.column_stack((x[:-1], y[:-1], z, x[1:], y[1:], z, size, np.full(n, float(Material.WIRE))))
+            )
     return np.concatenate(pieces)
 
 
@@ -135,7 +137,11 @@ def _shed_panels(shed: Shed | None) -> tuple[Floats, Floats]:
         ([(-a, b, 0), (-a, -b, 0), (-a, -b, h), (-a, b, h)], (-1, 0, 0), wall),
         ([(a, -b, h), (a, b, h), (a, 0, ridge), (a, 0, ridge)], (1, 0, 0), wall),
         ([(-a, b, h), (-a, -b, h), (-a, 0, ridge), (-a, 0, ridge)], (-1, 0, 0), wall),
-        ([(-a, -b - eave, h - drop), (a, -b - eave, h - drop), (a, 0, ridge), (-a, 0, ridge)], (0, -0.37, 0.93), roof),
+        (
+            [(-a, -b - eave, h - drop), (a, -b - eave, h - drop), (a, 0, ridge), (-a, 0, ridge)],
+            (0, -0.37, 0.93),
+            roof,
+        ),
         ([(a, b + eave, h - drop), (-a, b + eave, h - drop), (-a, 0, ridge), (a, 0, ridge)], (0, 0.37, 0.93), roof),
     ]
     panels = np.array([_panel(np.array(corners, dtype=np.float64), shed) for corners, _, _ in faces])

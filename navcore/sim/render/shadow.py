@@ -116,7 +116,14 @@ def cast(x: float, y: float, z: float, shear: Floats, corner: Floats, screen: Fl
 
 @compiled
 def tube_shadow(
-    tube: Floats, shear: Floats, corner: Floats, screen: Floats, plane: Floats, texels: Bytes, places: Places, height: Heights
+    tube: Floats,
+    shear: Floats,
+    corner: Floats,
+    screen: Floats,
+    plane: Floats,
+    texels: Bytes,
+    places: Places,
+    height: Heights,
 ) -> None:
     """A trunk or post as a flat strip across the sun."""
     size = max(math.sqrt(shear[0] ** 2 + shear[1] ** 2), 1e-6)
@@ -130,7 +137,14 @@ def tube_shadow(
 
 @compiled
 def beam_shadow(
-    beam: Floats, shear: Floats, corner: Floats, screen: Floats, plane: Floats, texels: Bytes, places: Places, height: Heights
+    beam: Floats,
+    shear: Floats,
+    corner: Floats,
+    screen: Floats,
+    plane: Floats,
+    texels: Bytes,
+    places: Places,
+    height: Heights,
 ) -> None:
     """A branch as a strip along its shadow."""
     cast(beam[0], beam[1], beam[2], shear, corner, screen[0])
@@ -147,7 +161,14 @@ def beam_shadow(
 
 @compiled
 def card_shadow(
-    card: Floats, shear: Floats, corner: Floats, screen: Floats, plane: Floats, texels: Bytes, places: Places, height: Heights
+    card: Floats,
+    shear: Floats,
+    corner: Floats,
+    screen: Floats,
+    plane: Floats,
+    texels: Bytes,
+    places: Places,
+    height: Heights,
 ) -> None:
     """A leaf card with its alpha."""
     for i in range(4):
@@ -169,7 +190,9 @@ def fill_shadow(screen: Floats, plane: Floats, material: int, texels: Bytes, pla
     start, rows, columns = places[material, LEVEL, 0], places[material, LEVEL, 1], places[material, LEVEL, 2]
     top, bottom = min(screen[0, 1], screen[1, 1]), max(screen[0, 1], screen[1, 1])
     top, bottom = min(top, screen[2, 1], screen[3, 1]), max(bottom, screen[2, 1], screen[3, 1])
-    for row in range(int(max(math.ceil(top - 0.5), 0.0)), int(min(math.floor(bottom - 0.5), height.shape[0] - 1.0)) + 1):
+    for row in range(
+        int(max(math.ceil(top - 0.5), 0.0)), int(min(math.floor(bottom - 0.5), height.shape[0] - 1.0)) + 1
+    ):
         left, right = span(screen, 4, row + 0.5)
         first, last = int(max(math.ceil(left - 0.5), 0.0)), int(min(math.floor(right - 0.5), height.shape[1] - 1.0))
         for x in range(first, last + 1):

@@ -36,8 +36,9 @@ def tessellate(
     n = 0
     for k in np.argsort(distance):
         c, z = seen[k], max(distance[k], 0.3)
-        if n + MOST_PER_PRIMITIVE * (span[c, 7] + span[c, 5] + span[c, 3] + span[c, 1]
-                                     - span[c, 6] - span[c, 4] - span[c, 2] - span[c, 0]) > len(tint):
+        if n + MOST_PER_PRIMITIVE * (
+            span[c, 7] + span[c, 5] + span[c, 3] + span[c, 1] - span[c, 6] - span[c, 4] - span[c, 2] - span[c, 0]
+        ) > len(tint):
             return -1
         for i in range(span[c, 0], span[c, 1]):
             n = add_tube(view, light, tubes, i, tube_look[i, 1] * 16 + tube_look[i, 0], corners, look, tint, n)
