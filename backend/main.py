@@ -2,19 +2,38 @@
 
 from __future__ import annotations
 
+import asyncio
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
 from importlib.metadata import version
 
 from fastapi import FastAPI
 
 from backend import errors, permissions
+from backend.body_limits import BodyLimit
+from backend.gate import Gate
+from backend.headers import SecurityHeaders
 from backend.routes import frontend, live, missions, orthophotos, robot, runs, scene, session, sites
 from backend.settings import Settings
+from backend.station import Station, open_station
 
 ROOMS = (session, sites, orthophotos, missions, robot, runs, live, scene, frontend)  # the last one takes what is left
 
 
 def create_app(settings: Settings) -> FastAPI:
-    """The station's app. Raises ContractError if a route has no permission."""
+    """The station, opened. It listens to the robot while the app runs. Raises ContractError for an open route."""
+    app = bare_app()
+    station = open_station(settings)
+    app.state.station = station
+    app.router.lifespan_context = lambda _: listening(station)
+    app.add_middleware(BodyLimit)
+    app.add_middleware(Gate, settings=settings, logins=station.logins, routes=app.router.routes)
+    app.add_middleware(SecurityHeaders)  # the outermost: refusals carry the headers too
+    return app
+
+
+def bare_app() -> FastAPI:
+    """Routes and errors without a station, enough for the OpenAPI text."""
     app = FastAPI(
         title="Rowpilot",
         version=version("rowpilot"),
@@ -24,7 +43,17 @@ def create_app(settings: Settings) -> FastAPI:
         separate_input_output_schemas=False,
     )
     errors.install(app)
-    for module in ROOMS:
-        app.router.routes.extend(module.router.routes)  # flat, so that every route can be seen and checked
-    permissions.check(app.routes)
+    for room in ROOMS:
+        app.router.routes.extend(room.router.routes)  # flat, so that every route can be seen and checked
+    permissions.check(app.router.routes)
     return app
+
+
+@asynccontextmanager
+async def listening(station: Station) -> AsyncIterator[None]:
+    """The life of the app."""
+    station.start(asyncio.get_running_loop())
+    try:
+        yield
+    finally:
+        await asyncio.to_thread(station.close)

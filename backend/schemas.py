@@ -11,7 +11,6 @@ from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from navcore.chassis.protocol import ChassisState
 from navcore.maps.mission import Mission, RowExit
 from navcore.maps.site_map import SiteMap
 from navcore.messages import (
@@ -22,6 +21,7 @@ from navcore.messages import (
     ModeSwitch,
     NavMode,
     NavStatus,
+    RecorderStatus,
     RunState,
 )
 from navcore.vehicle import VehicleParams
@@ -198,7 +198,7 @@ class Robot(Sent):
     Attributes:
         connected: the navigator was heard of within the last second.
         simulated: the robot is the simulator.
-        site_id: the farm that the simulated robot stands on, or that of the newest run.
+        site_id: the farm that the robot is set up for, None before the first or without a supervisor.
         state, run_id: from the navigator's newest status; None before the first.
         scene: there is a 3D view at `/scene/`.
         operators: browsers with a live heartbeat.
@@ -215,7 +215,7 @@ class Robot(Sent):
 
 
 class RobotSite(Received):
-    """Puts the simulated robot on a farm."""
+    """Sets the robot up for a farm; the simulated one is put there."""
 
     site_id: Id
 
@@ -292,7 +292,7 @@ class RunDetail(RunDocument):
 
 
 class RunTrack(Sent):
-    """The run in columns of equal length, about 10 Hz. Pose in `map`; `t_s` counts from the log's first message."""
+    """The run in columns of equal length, about 10 Hz. Pose in `map`; `t_s` counts from the log's first status."""
 
     t_s: list[float]
     x: list[float]
@@ -302,7 +302,7 @@ class RunTrack(Sent):
     omega: list[float]
     lateral_error: list[float | None]
     heading_error: list[float | None]
-    gnss_std: list[float | None]
+    position_std: list[float | None]
     speed_limit: list[float]
     progress: list[float]
     mode: list[NavMode]
@@ -364,4 +364,4 @@ class LiveTopics(Sent):
     nav_plan: MissionPlan | None = Field(alias="nav/plan")
     gnss_fix: GnssFix | None = Field(alias="gnss/fix")
     camera_view: CameraView | None = Field(alias="camera/view")
-    chassis_state: ChassisState | None = Field(alias="chassis/state")
+    recorder_status: RecorderStatus | None = Field(alias="recorder/status")

@@ -53,7 +53,7 @@ class Settings(BaseSettings):
     model_config = SettingsConfigDict(env_prefix="ROWPILOT_", frozen=True, extra="forbid")
 
     host: str = "127.0.0.1"
-    port: int = Field(default=8080, ge=0, le=65535)
+    port: int = Field(default=8000, ge=0, le=65535)
     open_to_network: bool = False
     allowed_hosts: tuple[str, ...] = ()
     data_dir: Path = Field(default_factory=default_data_dir)

@@ -1,29 +1,116 @@
-"""The parts of a running station."""
+"""The parts of a running station, wired once: the composition root."""
 
 from __future__ import annotations
 
+import asyncio
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from datetime import timedelta
+
+from backend import uploads
+from backend.audit import AuditBook
+from backend.database import Database
+from backend.exports import ExportStore
+from backend.heartbeat import HeartbeatTeller
+from backend.import_jobs import ImportJobs
+from backend.live import Hub
+from backend.logins import LoginBook
+from backend.missions import MissionStore
+from backend.navigator import NavigatorClient
+from backend.nonces import NonceBook
+from backend.picture_sites import PictureSites
+from backend.picture_store import PictureStore
+from backend.recorder import RecorderClient
+from backend.robot import RobotView
+from backend.run_end import RunEnd
+from backend.run_starter import RunStarter
+from backend.run_watcher import RunWatcher
+from backend.runs import RunStore
+from backend.settings import Settings
+from backend.sites import SiteStore
+from backend.stopper import Stopper
+from backend.supervisor import SupervisorClient
+from navcore.transport.endpoints import Endpoints
+from navcore.vehicle import PROFILES, VehicleParams
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Station:
-    """What the routes work with."""
+    """What the routes work with. `close` lets go of everything, last made first."""
 
-    settings: Any
-    database: Any
-    logins: Any
-    audit: Any
-    sites: Any
-    missions: Any
-    runs: Any
-    jobs: Any
-    pictures: Any
-    hub: Any
-    robot: Any
-    driver: Any
-    stopper: Any
-    nonces: Any
-    replay: Any
-    exports: Any
-    vehicle: Any
+    settings: Settings
+    vehicle: VehicleParams
+    logins: LoginBook
+    audit: AuditBook
+    sites: SiteStore
+    missions: MissionStore
+    runs: RunStore
+    jobs: ImportJobs
+    pictures: PictureStore
+    picture_sites: PictureSites
+    hub: Hub
+    robot: RobotView
+    starter: RunStarter
+    stopper: Stopper
+    nonces: NonceBook
+    exports: ExportStore
+    watcher: RunWatcher
+    heartbeat: HeartbeatTeller
+    closers: tuple[Callable[[], None], ...]
+
+    def start(self, loop: asyncio.AbstractEventLoop) -> None:
+        """Begin to listen to the robot. Nothing here makes it move."""
+        self.hub.start(loop)
+        self.watcher.start()
+        self.heartbeat.start()
+
+    def close(self) -> None:
+        """Let go of threads, processes, sockets and the database."""
+        for closer in self.closers:
+            closer()
+
+
+def open_station(settings: Settings) -> Station:
+    """Open the data folder and wire the parts. Removes what an interrupted import left behind."""
+    endpoints = Endpoints(settings.bus_dir)
+    endpoints.prepare()
+    database = Database(settings.database_path)
+    uploads.clear(settings)
+    sites, runs = SiteStore(database), RunStore(database, settings.run_dir)
+    pictures = PictureStore(settings.orthophoto_dir, settings.tile_dir)
+    pictures.delete_all_but(sites.orthophoto_ids())
+    hub, audit, jobs = Hub(endpoints), AuditBook(database), ImportJobs(settings)
+    navigator, told_to_stop, told_alive = (NavigatorClient(endpoints) for _ in range(3))
+    recorder, supervisor = RecorderClient(endpoints), SupervisorClient(endpoints, settings.data_dir / "robot")
+    robot = RobotView(settings, hub, supervisor)
+    stopper = Stopper(endpoints, told_to_stop)
+    watcher = RunWatcher(endpoints, runs, hub.put, RunEnd(recorder).finish)
+    heartbeat = HeartbeatTeller(told_alive, lambda: hub.operators(settings.operator_timeout_s))
+    clients = (navigator, told_to_stop, told_alive, recorder, supervisor, database)
+    return Station(
+        settings=settings,
+        vehicle=PROFILES[settings.vehicle],
+        logins=login_book(database, settings),
+        audit=audit,
+        sites=sites,
+        missions=MissionStore(database),
+        runs=runs,
+        jobs=jobs,
+        pictures=pictures,
+        picture_sites=PictureSites(sites, pictures),
+        hub=hub,
+        robot=robot,
+        starter=RunStarter(settings, database, runs, audit, navigator, recorder, robot),
+        stopper=stopper,
+        nonces=NonceBook(),
+        exports=ExportStore(),
+        watcher=watcher,
+        heartbeat=heartbeat,
+        closers=tuple(part.close for part in (heartbeat, watcher, hub, jobs, stopper, *clients)),
+    )
+
+
+def login_book(database: Database, settings: Settings) -> LoginBook:
+    """With the lives that the settings give."""
+    idle = timedelta(seconds=settings.session_idle_s)
+    return LoginBook(database, idle, timedelta(seconds=settings.session_absolute_s))

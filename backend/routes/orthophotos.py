@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Annotated
 
 from fastapi import APIRouter, Path, Query, Request, Response
+from fastapi.concurrency import run_in_threadpool
 
 from backend.deps import ERRORS, PathId, TheLogin, TheStation
 from backend.schemas import Job, JobStarted
@@ -30,7 +31,7 @@ async def upload_new_site(
 ) -> JobStarted:
     """Import a GeoTIFF (the body is the file) as the ground of a new site."""
     path = await receive(request, station.settings)
-    return JobStarted(job_id=station.jobs.start(path, name, None))
+    return JobStarted(job_id=station.jobs.start(path, station.picture_sites.new_site(name)))
 
 
 @router.post("/sites/{site_id}/orthophoto", status_code=202, openapi_extra=FILE)
@@ -38,9 +39,9 @@ async def upload_for_site(
     station: TheStation, login: TheLogin, request: Request, site_id: PathId, name: FileName = "orthophoto.tif"
 ) -> JobStarted:
     """Import a GeoTIFF (the body is the file) as the ground of a site that is there already."""
-    station.sites.get(site_id)
+    await run_in_threadpool(station.sites.get, site_id)
     path = await receive(request, station.settings)
-    return JobStarted(job_id=station.jobs.start(path, name, site_id))
+    return JobStarted(job_id=station.jobs.start(path, station.picture_sites.for_site(site_id, name)))
 
 
 @router.get("/jobs/{job_id}")

@@ -8,6 +8,7 @@ from fastapi import APIRouter, BackgroundTasks, Query, Response
 from fastapi.responses import FileResponse
 
 from backend.deps import ERRORS, PathId, TheLogin, TheStation
+from backend.run_camera import picture_at
 from backend.schemas import (
     ActionResult,
     LogFormat,
@@ -40,13 +41,13 @@ def list_runs(station: TheStation, limit: Annotated[int, Query(ge=1, le=500)] = 
 def start_run(station: TheStation, login: TheLogin, body: RunStart) -> RunDocument:
     """Start a stored mission; 409 with every reason if it cannot start."""
     station.nonces.use(body.nonce, login.digest)
-    return station.driver.start(login, body.mission_id, body.link_loss)
+    return station.starter.start(login, body.mission_id, body.link_loss)
 
 
 @router.post("/runs/current/stop")
-def stop(station: TheStation, login: TheLogin, tasks: BackgroundTasks) -> StopResult:
+async def stop(station: TheStation, login: TheLogin, tasks: BackgroundTasks) -> StopResult:
     """Stop now: to the guard by the short way, and to the navigator. Nothing else is asked first."""
-    result = station.stopper.stop()
+    result = await station.stopper.stop()
     tasks.add_task(station.audit.write, login, "stop", "", result.message)
     return result
 
@@ -54,7 +55,7 @@ def stop(station: TheStation, login: TheLogin, tasks: BackgroundTasks) -> StopRe
 @router.post("/runs/current/{action}")
 def act(station: TheStation, login: TheLogin, action: OperatorAction) -> ActionResult:
     """Pause, resume, or acknowledge what happened."""
-    station.driver.act(login, action)
+    station.starter.act(login, action)
     return ActionResult(accepted=True)
 
 
@@ -64,10 +65,10 @@ def read_run(station: TheStation, run_id: PathId) -> RunDetail:
     return station.runs.detail(run_id)
 
 
-@router.get("/runs/{run_id}/track")
-def track(station: TheStation, run_id: PathId) -> RunTrack:
+@router.get("/runs/{run_id}/track", response_model=RunTrack)
+def track(station: TheStation, run_id: PathId) -> FileResponse:
     """The run in columns, for replay."""
-    return station.replay.track(station.runs.log_path(run_id))
+    return FileResponse(station.exports.track(station.runs.log_path(run_id)), media_type="application/json")
 
 
 @router.get(
@@ -77,12 +78,12 @@ def track(station: TheStation, run_id: PathId) -> RunTrack:
 )
 def camera(station: TheStation, run_id: PathId, t_s: Annotated[float, Query(ge=0, le=LATER)]) -> Response:
     """The picture shown at `t_s`; what was seen in it is in the header X-Camera-View, as JSON."""
-    view, jpeg = station.replay.camera(station.runs.log_path(run_id), t_s)
+    view, jpeg = picture_at(station.runs.log_path(run_id), t_s)
     return Response(jpeg, media_type="image/jpeg", headers={"X-Camera-View": view})
 
 
 @router.get("/runs/{run_id}/download", response_class=FileResponse)
 def download(station: TheStation, run_id: PathId, format: LogFormat = LogFormat.MCAP) -> FileResponse:  # noqa: A002
     """The run log, or one of its exports."""
-    path = station.exports.path(station.runs.log_path(run_id), format)
+    path = station.exports.download(station.runs.log_path(run_id), format)
     return FileResponse(path, filename=f"run-{run_id}.{format}", content_disposition_type="attachment")

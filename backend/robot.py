@@ -1,0 +1,65 @@
+"""What the station knows of the robot, and where the simulated one stands."""
+
+from __future__ import annotations
+
+from backend.errors import ConflictError
+from backend.live import Hub
+from backend.schemas import Robot
+from backend.settings import Settings
+from backend.supervisor import SupervisorClient
+from navcore.errors import InputError
+from navcore.maps.site_map import SiteMap
+from navcore.messages import NavStatus, RunState
+from navcore.topics import NAV_STATUS
+from navcore.transport.codec import decode
+from navcore.vehicle import PROFILES
+
+STANDING = frozenset({RunState.IDLE, RunState.FINISHED, RunState.STOPPED})
+
+
+class RobotView:
+    """Read from the newest status; nothing here moves anything."""
+
+    def __init__(self, settings: Settings, hub: Hub, supervisor: SupervisorClient) -> None:
+        self._settings = settings
+        self._hub = hub
+        self._supervisor = supervisor
+
+    def status(self) -> NavStatus | None:
+        """The navigator's newest status, None if it has been silent for longer than the topic allows."""
+        received = self._hub.current().get(NAV_STATUS.name)
+        try:
+            return decode(NavStatus, received.payload) if received else None
+        except InputError:
+            return None
+
+    def describe(self) -> Robot:
+        """For the browser."""
+        status, supervisor = self.status(), self._supervisor.status()
+        return Robot(
+            connected=status is not None,
+            simulated=supervisor.simulated if supervisor else self._settings.simulated,
+            vehicle=PROFILES[self._settings.vehicle],
+            site_id=supervisor.site_id if supervisor else None,
+            state=status.state if status else None,
+            run_id=status.run_id if status else None,
+            scene=self._settings.scene_port is not None,
+            operators=self._hub.operators(self._settings.operator_timeout_s),
+        )
+
+    def start_reasons(self, site_id: str, site_name: str) -> list[str]:
+        """What stands against a start on that site, beside the plan and the navigator's own reasons."""
+        reasons = []
+        if self.status() is None:
+            reasons.append("The robot is not connected. Check that it is switched on, then try again.")
+        supervisor = self._supervisor.status()
+        if supervisor is not None and supervisor.site_id != site_id:
+            reasons.append(f"The robot is set up for another farm. Place it on {site_name} first.")
+        return reasons
+
+    def place(self, site_id: str, site: SiteMap) -> None:
+        """Set the robot up for a farm; a simulated one starts again there. Raises ConflictError while it drives."""
+        status = self.status()
+        if status is not None and status.state not in STANDING:
+            raise ConflictError("A mission is under way. Stop it before you place the robot elsewhere.")
+        self._supervisor.place(site_id, site)

@@ -1,0 +1,29 @@
+"""What is done when a run has ended."""
+
+from __future__ import annotations
+
+import logging
+from threading import Thread
+
+from backend.errors import RefusedError
+from backend.recorder import RecorderClient
+from navcore.errors import TransportError
+
+log = logging.getLogger("rowpilot.station")
+
+
+class RunEnd:
+    """Closes the log of a run that is finished. That of a stopped one stays open: it may be resumed."""
+
+    def __init__(self, recorder: RecorderClient) -> None:
+        self._recorder = recorder
+
+    def finish(self, run_id: str) -> None:
+        """Ask the recorder, in a thread: who watches the robot must not wait for a disk."""
+        Thread(target=self._finish, args=(run_id,), name="run-end", daemon=True).start()
+
+    def _finish(self, run_id: str) -> None:
+        try:
+            self._recorder.finish(run_id)
+        except (TransportError, RefusedError) as error:
+            log.warning("the log of run %s was not closed: %s", run_id, error)

@@ -1,0 +1,44 @@
+"""The export process: `python -m backend.run_export LOG FORM TARGET`.
+
+A process of its own, because reading a log keeps Python busy for seconds and the live feed must go on. Says in one
+sentence on stdout what is wrong with a log, with exit status 3.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from pathlib import Path
+
+from backend.disk import write_durably
+from backend.run_track import read_track
+from navcore.errors import InputError
+from navcore.recording.export import RunExport
+
+UNREADABLE = 3
+
+
+def main() -> int:
+    """Write one export, whole or not at all."""
+    log, form, target = sys.argv[1:4]
+    os.nice(10)
+    try:
+        text = render(Path(log), form)
+    except InputError as error:
+        sys.stdout.write(str(error))
+        return UNREADABLE
+    write_durably(Path(target), text.encode())
+    return 0
+
+
+def render(log: Path, form: str) -> str:
+    """A log as "csv", "geojson", "gpx" or "track" (JSON of `RunTrack`). Raises InputError."""
+    if form == "track":
+        return read_track(log).model_dump_json()
+    export = RunExport(log)
+    forms = {"csv": export.csv, "geojson": export.geojson, "gpx": export.gpx}
+    return forms[form]()
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

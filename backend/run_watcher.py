@@ -1,0 +1,130 @@
+"""Keeps the row of the run under way up to date, from the live feed. It only reads; it never starts anything."""
+
+from __future__ import annotations
+
+import logging
+import time
+from collections.abc import Callable
+from contextlib import suppress
+from datetime import UTC, datetime
+from threading import Event, Thread
+
+from sqlalchemy.exc import SQLAlchemyError
+
+from backend.run_figures import RunFigures, resumed
+from backend.runs import RunStore
+from navcore.errors import InputError
+from navcore.messages import ModeSwitch, NavStatus, RunState
+from navcore.topics import NAV_PLAN, NAV_STATUS, NAV_SWITCH
+from navcore.transport.codec import decode
+from navcore.transport.endpoints import Endpoints
+from navcore.transport.pubsub import Received, Subscriber
+
+log = logging.getLogger("rowpilot.station")
+POLL_MS = 200
+WRITE_S = 1.0
+LOST_S = 30.0
+LOST = "The station has not heard of the robot since. The log of the run tells what happened."
+OVER = frozenset({RunState.IDLE, RunState.FINISHED, RunState.STOPPED})
+
+
+class RunWatcher:
+    """A thread with a subscription of its own, so that a slow disk delays nobody."""
+
+    def __init__(
+        self,
+        endpoints: Endpoints,
+        runs: RunStore,
+        show_plan: Callable[[Received], None],
+        on_end: Callable[[str], None],
+    ) -> None:
+        """`show_plan` gets the stored plan of a run found under way; `on_end` the id of a run that has ended."""
+        self._endpoints = endpoints
+        self._runs = runs
+        self._show_plan = show_plan
+        self._on_end = on_end
+        self._figures: RunFigures | None = None
+        self._written_s = 0.0
+        self._heard_s = time.monotonic()
+        self._closing = Event()
+        self._thread = Thread(target=self._run, name="run-watcher", daemon=True)
+
+    def start(self) -> None:
+        """Begin to watch."""
+        self._thread.start()
+
+    def close(self) -> None:
+        """Stop watching; what was seen is written."""
+        self._closing.set()
+        if self._thread.is_alive():
+            self._thread.join()
+
+    def _run(self) -> None:
+        with Subscriber(self._endpoints, (NAV_STATUS.name, NAV_SWITCH.name)) as subscriber:
+            while not self._closing.is_set():
+                received = subscriber.receive(POLL_MS)
+                while received is not None:
+                    self._take(received)
+                    received = subscriber.receive(0)
+                self._write_when_due()
+        self._write()
+
+    def _take(self, received: Received) -> None:
+        with suppress(InputError):  # a navigator of another version: the front end says so, the run goes on
+            if received.name == NAV_STATUS.name:
+                self._take_status(decode(NavStatus, received.payload))
+            elif self._figures is not None:
+                self._figures.add_switch(decode(ModeSwitch, received.payload))
+
+    def _take_status(self, status: NavStatus) -> None:
+        self._heard_s = time.monotonic()
+        if status.run_id is None:
+            self._let_go()
+            return
+        if self._figures is None or self._figures.run_id != status.run_id:
+            self._let_go()
+            self._figures = self._follow(status.run_id)
+        was_over = self._figures.over
+        self._figures.add(status)
+        if self._figures.over and not was_over:
+            self._write()
+            self._on_end(status.run_id)
+
+    def _follow(self, run_id: str) -> RunFigures:
+        """A run that we did not see begin, after a restart of the station, gets its plan from the database."""
+        plan = self._runs.plan_bytes(run_id)
+        if plan is not None:
+            self._show_plan(Received(NAV_PLAN.name, plan, b""))
+            return resumed(self._runs.get(run_id))
+        return RunFigures(run_id)
+
+    def _let_go(self) -> None:
+        if self._figures is not None:
+            self._write()
+            self._figures = None
+
+    def _write_when_due(self) -> None:
+        now_s = time.monotonic()
+        if now_s - self._heard_s > LOST_S:
+            self._give_up()
+        elif now_s - self._written_s >= WRITE_S:
+            self._write()
+
+    def _give_up(self) -> None:
+        self._heard_s = time.monotonic()
+        self._let_go()
+        with suppress(SQLAlchemyError):
+            self._runs.interrupt_all_but(None, LOST)
+
+    def _write(self) -> None:
+        self._written_s = time.monotonic()
+        figures = self._figures
+        if figures is None:
+            return
+        events, figures.fresh_events = figures.fresh_events, []
+        columns = figures.columns() | {"ended": datetime.now(UTC) if figures.over else None}
+        try:
+            self._runs.write_figures(figures.run_id, columns, events)
+        except SQLAlchemyError:  # a full or locked disk must not end the watching; the next write has all sums
+            figures.fresh_events = events + figures.fresh_events
+            log.exception("cannot write the figures of run %s", figures.run_id)
