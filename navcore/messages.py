@@ -356,6 +356,7 @@ class CameraRequest:
         width: corridor width, m.
         to_start: metres ahead at which the wanted row begins (negative inside), by map and odometry.
         to_end: metres ahead at which it ends.
+        roll, pitch: how the driving frame leans against the ground, rad (left side up, nose down).
     """
 
     stamp_ns: int
@@ -369,6 +370,8 @@ class CameraRequest:
     width: float | None = None
     to_start: float | None = None
     to_end: float | None = None
+    roll: float = 0.0
+    pitch: float = 0.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -438,7 +441,10 @@ class NavInputs:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SimTruth:
-    """The simulated world's own truth: pose of `base_link` in `map`. Never an input of the navigator."""
+    """The simulated world's own truth: pose of `base_link` in `map`. Never an input of the navigator.
+
+    `roll` and `pitch` are against the ground's mean plane, which is what a camera sees; gravity also knows the slope.
+    """
 
     stamp_ns: int
     x: float

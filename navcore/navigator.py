@@ -14,6 +14,8 @@ from navcore.control.progress import ProgressCheck, ProgressParams
 from navcore.control.speed_regulation import SpeedLimit
 from navcore.errors import InputError
 from navcore.geometry.angles import wrap
+from navcore.geometry.geodesy import EnuFrame
+from navcore.localization.attitude import Attitude, AttitudeParams
 from navcore.localization.pose_filter import PoseFilter, PoseFilterParams
 from navcore.maps.site_map import Datum
 from navcore.messages import (
@@ -55,6 +57,7 @@ class NavigatorParams:
     driver: DriverParams = field(default_factory=DriverParams)
     progress: ProgressParams = field(default_factory=ProgressParams)
     filter: PoseFilterParams = field(default_factory=PoseFilterParams)
+    attitude: AttitudeParams = field(default_factory=AttitudeParams)
 
 
 class Navigator:
@@ -63,7 +66,8 @@ class Navigator:
     def __init__(self, datum: Datum, params: NavigatorParams, vehicle: VehicleParams = PAPER_A) -> None:
         self.params, self.vehicle = params, vehicle
         self.datum = (datum.lat_deg, datum.lon_deg, datum.height_m)
-        self.senses = Senses(PoseFilter(params.filter, datum), GnssEvidence(params.gnss))
+        pose_filter = PoseFilter(EnuFrame(datum), params.filter)
+        self.senses = Senses(pose_filter, GnssEvidence(params.gnss), Attitude(params.attitude))
         self.driver = Driver(params.driver, vehicle)
         self.progress = ProgressCheck(params.progress)
         self.pilot: Pilot | None = None
@@ -94,6 +98,7 @@ class Navigator:
         return Position(
             now_ns=now_ns, T_odom_base=s.T_odom_base, T_map_base=s.T_map_base, gnss_std=s.pose_std,
             gnss_streak=s.gnss.streak, standing=s.standing,
+            lean=s.attitude.against_ground(s.T_odom_base.yaw),
         )  # fmt: skip
 
     def _advance(self, at: Position, rows: tuple[RowObservation, ...], dt: float) -> ModeSwitch | None:
@@ -154,11 +159,13 @@ class Navigator:
         if request.kind is RequestKind.START:
             self.pilot = self._new_pilot(at, request)
             self.run_id, self.link_loss = request.run_id, request.link_loss
+            if request.plan is not None:
+                self.driver.take(request.plan)
         if request.kind in (RequestKind.START, RequestKind.RESUME):
             self.driver.reset()
             self.progress.reset()
             if self.pilot is not None:
-                self.pilot.anchor.jump()
+                self.pilot.start_over()
 
     def _steer(self, now_ns: int) -> Driving:
         if self.pilot is None or self.state not in (RunState.DRIVING, RunState.HOLDING):
@@ -186,6 +193,7 @@ class Navigator:
             row_age_s=pilot.row.age_s(now_ns) if pilot else None,
             row_reason=pilot.row.reason if pilot else "",
             lateral_error=pilot.projection.lateral if pilot else None,
+            captured=pilot.captured if pilot else True,
             stuck=self._stuck(now_ns),
             held_s=since_s if self.state is RunState.HOLDING else 0.0,
             arming_s=since_s if self.state is RunState.STARTING else 0.0,

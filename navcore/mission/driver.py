@@ -8,14 +8,19 @@ from navcore.control.line_tracker import LineTracker, LineTrackerParams
 from navcore.control.look_ahead import LookAheadParams, gnss_look_ahead, row_look_ahead
 from navcore.control.prediction import ActuatorParams
 from navcore.control.speed_regulation import SpeedLimit, SpeedRegulation, SpeedRegulationParams, tightest
-from navcore.control.steering import Controller, Motion
+from navcore.control.steering import Motion
+from navcore.control.stop_zones import StopZoneParams, StopZones
 from navcore.control.target_line import TargetLine, target_from_path
-from navcore.messages import NavMode, PoseEstimate
+from navcore.geometry.se2 import SE2
+from navcore.messages import MissionPlan, NavMode, Point, PoseEstimate
 from navcore.mission.pilot import CARRIED, ON_CAMERA, Pilot
 from navcore.mission.senses import Senses
 from navcore.vehicle import VehicleParams
 
 S = 1_000_000_000
+# Below this speed the measured turn rate tells no curvature, m/s.
+STEERABLE = 0.1
+Polygons = tuple[tuple[Point, ...], ...]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -38,6 +43,7 @@ class DriverParams:
     tracker: LineTrackerParams = field(default_factory=LineTrackerParams)
     actuator: ActuatorParams = field(default_factory=ActuatorParams)
     speed: SpeedRegulationParams = field(default_factory=SpeedRegulationParams)
+    zones: StopZoneParams = field(default_factory=StopZoneParams)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -66,14 +72,24 @@ class Driver:
 
     def __init__(self, params: DriverParams, vehicle: VehicleParams) -> None:
         self.params, self.vehicle = params, vehicle
-        self.controller: Controller = LineTracker(params.tracker, params.actuator)
+        self.controller = LineTracker(params.tracker, params.actuator)
         self.regulation = SpeedRegulation(params.speed, max_acceleration=vehicle.max_acceleration)
+        self._leg = 0
+        self._zones = self._new_zones((), ())
+
+    def take(self, plan: MissionPlan) -> None:
+        """Prepare for a plan: its zones."""
+        self._zones = self._new_zones(plan.keep_in, plan.keep_out)
         self._leg = 0
 
     def reset(self) -> None:
         """Forget what belongs to the last line: the robot stands."""
         self.controller.reset()
         self.regulation.reset()
+
+    def _new_zones(self, keep_in: Polygons, keep_out: Polygons) -> StopZones:
+        body, p = self.vehicle, self.params
+        return StopZones(keep_in, keep_out, length=body.length, width=body.width, params=p.zones, regulation=p.speed)
 
     def slow_limit(self) -> tuple[SpeedLimit, ...]:
         """What an event with the effect SLOW allows."""
@@ -86,7 +102,8 @@ class Driver:
             return Driving.standing()
         self._on_new_leg(pilot)
         target = self._target(pilot, senses, now_ns)
-        limit = self._speed(target, pilot, now_ns, (*limits, *self._mode_limits(pilot)))
+        zone = self._zone_limit(pilot.pose, pose)
+        limit = self._speed(target, pilot, now_ns, (*limits, *self._mode_limits(pilot), zone))
         v, omega = self._steer(target, pilot, pose, limit.speed, now_ns)
         return Driving(
             v=v,
@@ -94,7 +111,13 @@ class Driver:
             deadline_ns=target.deadline_ns,
             speed_limit=limit.speed,
             speed_reason=limit.reason,
+            zone=f"The robot must not go on: {zone.reason}." if zone.speed <= 0.0 else "",
         )
+
+    def _zone_limit(self, T_map_drive: SE2, pose: PoseEstimate) -> SpeedLimit:
+        v = abs(pose.v)
+        curvature = pose.omega / v if v > STEERABLE else 0.0
+        return self._zones.limit(T_map_drive, v=v, curvature=curvature)
 
     def _on_new_leg(self, pilot: Pilot) -> None:
         if pilot.place.leg != self._leg:
@@ -134,10 +157,10 @@ class Driver:
             SpeedLimit(speed=pilot.leg.speed(pilot.place.s), reason="planned"),
             SpeedLimit(speed=self.vehicle.max_speed, reason="vehicle"),
         ))  # fmt: skip
-        gain = self.controller.turn_gain if isinstance(self.controller, LineTracker) else 1.0
         return self.regulation.regulate(
-            target, wanted=wanted.speed, now_ns=now_ns, turn_gain=gain, lateral_std=0.0, capturing=True, others=limits
-        )
+            target, wanted=wanted.speed, now_ns=now_ns, turn_gain=self.controller.turn_gain, lateral_std=0.0,
+            capturing=True, others=limits,
+        )  # fmt: skip
 
     def _steer(
         self, target: TargetLine, pilot: Pilot, pose: PoseEstimate, speed: float, now_ns: int

@@ -27,7 +27,7 @@ class EventParams:
         off_path_slow, off_path_stop: distance from the path (hazard 50).
         link_s: time without an operator's page (hazard 20).
         arming_s: longest time for the chassis to obey.
-        start_distance: from the robot to the mission's start.
+        start_distance: from the robot to the mission's start, and from the path before it was first reached.
         battery_low_v: warn and slow (hazard 52). battery_stop_v: stop.
     """
 
@@ -36,10 +36,10 @@ class EventParams:
     tick_slow_s: float = 0.1
     tick_stop_s: float = 0.2
     gnss_slow_s: float = 1.0
-    gnss_stop_s: float = 3.0
+    gnss_stop_s: float = 2.8
     pose_std: float = 0.6
     carried: float = 30.0
-    row_hold_s: float = 0.5
+    row_hold_s: float = 0.42
     hold_stop_s: float = 20.0
     gnss_hold_s: float = 90.0
     off_path_slow: float = 0.3
@@ -53,7 +53,7 @@ class EventParams:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EventFacts:
-    """What the table looks at in one tick. Ages are None where nothing ever came."""
+    """What the table looks at in one tick. Ages are None where nothing came; `captured`: the path was reached."""
 
     state: RunState
     mode: NavMode
@@ -68,6 +68,7 @@ class EventFacts:
     row_age_s: float | None
     row_reason: str
     lateral_error: float | None
+    captured: bool
     stuck: bool
     held_s: float
     arming_s: float
@@ -221,7 +222,8 @@ EVENTS: tuple[Event, ...] = (
     ),
     _event(
         "far_off_path", "STOP",
-        lambda f, p: _moving(f) and f.lateral_error is not None and not abs(f.lateral_error) <= p.off_path_stop,
+        lambda f, p: _moving(f) and f.lateral_error is not None
+        and not abs(f.lateral_error) <= (p.off_path_stop if f.captured else p.start_distance),
         lambda f: f"The robot is {abs(f.lateral_error or 0) * 100:.0f} cm off its path. Move it back, then resume.",
     ),
     _event(

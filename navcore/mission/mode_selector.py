@@ -27,7 +27,7 @@ class ModeSelectorParams:
 
     streak: int = 3
     lost_s: float = 1.0
-    end_zone: float = 1.5
+    end_zone: float = 2.5
     again: float = 5.0
     clear: float = 1.0
     gnss_std: float = 0.12

@@ -34,12 +34,14 @@ class PilotParams:
 
     Attributes:
         arrival: a leg counts as driven this close to its end, m.
+        capture: the path counts as reached this close to it, m.
         search: half width of the search for the place on the path, m.
         look_out: the camera is used from this far before a row's entry segment, m.
         end_std: 1-sigma of the row end's distance as the camera sees it, m.
     """
 
     arrival: float = 0.12
+    capture: float = 0.25
     search: float = 3.0
     look_out: float = 4.0
     end_std: float = 0.4
@@ -57,6 +59,7 @@ class Position:
         T_map_base: the pose filter's, None without one.
         gnss_std, gnss_streak: see `ModeFacts`.
         standing: the robot does not move.
+        lean: (roll, pitch) of `base_link` against the ground, rad.
     """
 
     now_ns: int
@@ -65,6 +68,7 @@ class Position:
     gnss_std: float | None
     gnss_streak: int
     standing: bool
+    lean: tuple[float, float] = (0.0, 0.0)
 
 
 class Pilot:
@@ -77,6 +81,7 @@ class Pilot:
         self.row = RowEvidence(params.row)
         self.carried = 0.0
         self.arrived = False
+        self.captured = False
         self._at = start
         self.place = Place(0, 0.0)
         self.pose = self._drive(T_map_base)
@@ -110,9 +115,15 @@ class Pilot:
             self.anchor.follow(at.T_map_base @ at.T_odom_base.inverse())
         self.pose = self.anchor.slide(self._drive(at.T_odom_base), dt)
         self.projection = self._project(self.place.s)
+        self.captured = self.captured or abs(self.projection.lateral) <= self.params.capture
         self.place = Place(self.place.leg, self.projection.s)
         self._finish_leg(at)
         return self._choose_mode(at)
+
+    def start_over(self) -> None:
+        """The robot sets off from standstill: take the wanted tie at once, and let it get onto the path."""
+        self.anchor.jump()
+        self.captured = False
 
     def _drive(self, T_x_base: SE2) -> SE2:
         """Pose of the driving frame: turned by pi on a leg that is driven backwards."""
@@ -227,6 +238,7 @@ class Pilot:
         row, segment = self.row_line(), self._row_segment()
         if row is None or segment is None:
             return None
+        turned = -1.0 if self.leg.reverse else 1.0
         seen_from = row.coordinates(self.anchor.T_map_odom @ self._drive(at.T_odom_base))
         return CameraRequest(
             stamp_ns=at.now_ns,
@@ -240,4 +252,6 @@ class Pilot:
             width=segment.corridor_width,
             to_start=-seen_from.x,
             to_end=self._row_length(segment) - seen_from.x,
+            roll=turned * at.lean[0],
+            pitch=turned * at.lean[1],
         )

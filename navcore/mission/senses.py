@@ -6,6 +6,7 @@ import math
 
 from navcore.chassis.protocol import ChassisState, ControlMode, GuardState
 from navcore.geometry.se2 import SE2
+from navcore.localization.attitude import Attitude
 from navcore.localization.pose_filter import PoseFilter
 from navcore.messages import FixQuality, NavInputs, PoseEstimate
 from navcore.mission.evidence import NS, GnssEvidence
@@ -17,8 +18,9 @@ STANDING_OMEGA = 0.05
 class Senses:
     """Feeds the pose filter and keeps the newest of everything else."""
 
-    def __init__(self, pose_filter: PoseFilter, gnss: GnssEvidence) -> None:
+    def __init__(self, pose_filter: PoseFilter, gnss: GnssEvidence, attitude: Attitude) -> None:
         self.filter = pose_filter
+        self.attitude = attitude
         self.gnss = gnss
         self.chassis: ChassisState | None = None
         self.pose: PoseEstimate | None = None
@@ -29,13 +31,17 @@ class Senses:
         for state in inputs.chassis:
             self.chassis = state
             self.filter.add_chassis(state)
+            self.attitude.add_speed(state.v)
         for sample in inputs.imu:
             self.filter.add_imu(sample)
+            self.attitude.add_imu(sample)
         for fix in inputs.gnss:
             self.gnss.add(fix)
             self.filter.add_gnss(fix)
         self.pose = self.filter.estimate(inputs.now_ns)
-        self.T_odom_base = self.filter.odom_at(inputs.now_ns)
+        before, self.T_odom_base = self.T_odom_base, self.filter.odom_at(inputs.now_ns)
+        driven = math.hypot(self.T_odom_base.x - before.x, self.T_odom_base.y - before.y)
+        self.attitude.drive(driven, self.T_odom_base.yaw)
 
     @property
     def T_map_base(self) -> SE2 | None:

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 from navcore.geometry.se2 import SE2
 from navcore.messages import CameraName, CameraRequest, CameraView
 from navcore.perception.detector import Image
+from navcore.perception.levelling import USUAL_WIDTH, leaning_offset, levelled
 from navcore.perception.row_lines import RowPrior
 from navcore.perception.row_perception import RowPerception
 
@@ -16,8 +18,9 @@ LEAST_PRIOR_STD = 0.15
 class RowEye:
     """One perception a camera; a change of camera starts anew."""
 
-    def __init__(self, perceptions: Mapping[CameraName, RowPerception]) -> None:
-        self._perceptions = perceptions
+    def __init__(self, perceptions: Mapping[CameraName, RowPerception], camera_height: float) -> None:
+        """`camera_height` above the ground, m."""
+        self._perceptions, self._height = perceptions, camera_height
         self._last: CameraRequest | None = None
 
     def look(self, image: Image, stamp_ns: int, request: CameraRequest, latency_ms: float = 0.0) -> CameraView:
@@ -27,9 +30,9 @@ class RowEye:
         if motion is None:
             perception.forget()
         self._last = request
-        return perception.process(
-            image, stamp_ns, request.camera, prior=row_prior(request), motion=motion, latency_ms=latency_ms
-        )
+        prior = row_prior(request, self._height)
+        view = perception.process(image, stamp_ns, request.camera, prior=prior, motion=motion, latency_ms=latency_ms)
+        return replace(view, row=levelled(view.row, self._height, request.roll))
 
     def _motion(self, request: CameraRequest) -> SE2 | None:
         """`T_last_now` of base_link, None where this picture does not follow the last one."""
@@ -39,12 +42,13 @@ class RowEye:
         return _odom(last).inverse() @ _odom(request)
 
 
-def row_prior(request: CameraRequest) -> RowPrior | None:
-    """The expected row in the driving frame, None where none is expected."""
+def row_prior(request: CameraRequest, camera_height: float) -> RowPrior | None:
+    """The expected row in the driving frame as the leaning camera should see it, None where none is expected."""
     if request.offset is None or request.heading is None:
         return None
     std = max(request.offset_std or 0.0, LEAST_PRIOR_STD)
-    return RowPrior(offset=request.offset, heading=request.heading, std=std, width=request.width)
+    offset = leaning_offset(request.offset, request.width or USUAL_WIDTH, camera_height, request.roll)
+    return RowPrior(offset=offset, heading=request.heading, std=std, width=request.width)
 
 
 def _odom(request: CameraRequest) -> SE2:

@@ -32,8 +32,9 @@ class ProjectedEye:
         faults = objects or ProjectedObjectsParams()
         self._detectors = {name: ProjectedObjects(orchard, camera, faults, rng) for name, camera in cameras.items()}
         params = perception or RowPerceptionParams()
-        self._eye = RowEye({n: RowPerception(c, self._detectors[n], params) for n, c in cameras.items()})
         camera = cameras[CameraName.FRONT]
+        perceptions = {n: RowPerception(c, self._detectors[n], params) for n, c in cameras.items()}
+        self._eye = RowEye(perceptions, camera.z)
         self._picture = rng.integers(0, 255, (camera.height_px, camera.width_px, 3), dtype=np.uint8)
 
     def look(self, truth: SimTruth, request: CameraRequest) -> CameraView:

@@ -68,8 +68,8 @@ class TerrainParams:
     """
 
     slope_max_deg: float = 1.5
-    tilt_std_deg: float = 0.8
-    rut_depth: float = 0.03
+    tilt_std_deg: float = 0.6
+    rut_depth: float = 0.02
     rut_track: float = 1.1
     wet_share: float = 0.12
     soil_share: float = 0.20
@@ -84,7 +84,9 @@ class Terrain:
         self._x0, self._y0, self._inverse_cell = float(xs[0]), float(ys[0]), 1.0 / params.cell
         self._columns, self._row_count = len(xs), len(ys)
         centres = np.column_stack([a.ravel() for a in np.meshgrid(xs, ys)])
-        heights = _bumps((len(ys), len(xs)), params, rng) + _plane(centres, params, rng).reshape(len(ys), len(xs))
+        bumps = _bumps((len(ys), len(xs)), params, rng)
+        self._slope = _slope(params, rng)
+        heights = bumps + np.asarray(centres @ self._slope).reshape(len(ys), len(xs))
         heights -= _ruts(centres, site, params).reshape(heights.shape)
         self._heights = np.ascontiguousarray(heights.ravel()).data
         self._surfaces = _surfaces(centres, site, heights.shape, params, rng).data
@@ -103,6 +105,12 @@ class Terrain:
         column = min(max(int((x - self._x0) * self._inverse_cell), 0), self._columns - 1)
         row = min(max(int((y - self._y0) * self._inverse_cell), 0), self._row_count - 1)
         return Surface(self._surfaces[row * self._columns + column])
+
+    def land_tilt(self, yaw: float) -> tuple[float, float]:
+        """Roll and pitch (rad) that the site's slope alone gives: plants and ground lean with the robot by it."""
+        gx, gy = self._slope
+        c, s = math.cos(yaw), math.sin(yaw)
+        return math.atan(c * gy - s * gx), -math.atan(c * gx + s * gy)
 
     def tilt(self, x: float, y: float, yaw: float, wheelbase: float, track: float) -> tuple[float, float]:
         """Roll and pitch (rad, REP 103: nose down is positive) of a robot whose four wheels stand on the ground."""
@@ -153,9 +161,10 @@ def _bumps(shape: tuple[int, int], params: TerrainParams, rng: np.random.Generat
     return np.asarray(total * math.tan(math.radians(params.tilt_std_deg)) / slope.std())
 
 
-def _plane(centres: Floats, params: TerrainParams, rng: np.random.Generator) -> Floats:
+def _slope(params: TerrainParams, rng: np.random.Generator) -> tuple[float, float]:
+    """Rise of the whole site towards east and north, m per m."""
     slope, direction = math.tan(math.radians(rng.uniform(0.0, params.slope_max_deg))), rng.uniform(-math.pi, math.pi)
-    return np.asarray(slope * (centres @ (math.cos(direction), math.sin(direction))))
+    return slope * math.cos(direction), slope * math.sin(direction)
 
 
 def _ruts(centres: Floats, site: SiteMap, params: TerrainParams) -> Floats:

@@ -191,9 +191,10 @@ class World:
 
     def _output(self, now_ns: int) -> WorldOutput:
         d = self._drive
+        land_roll, land_pitch = self._terrain.land_tilt(d.yaw)
         truth = SimTruth(
-            stamp_ns=self._now_ns, x=d.x, y=d.y, yaw=d.yaw, roll=self._imu.roll, pitch=self._imu.pitch, v=d.v,
-            omega=d.omega,
+            stamp_ns=self._now_ns, x=d.x, y=d.y, yaw=d.yaw, roll=self._imu.roll - land_roll,
+            pitch=self._imu.pitch - land_pitch, v=d.v, omega=d.omega,
         )  # fmt: skip
         arrived = [s for s in self._imu_sent if s.stamp_ns + self._imu_latency_ns <= now_ns]
         self._imu_sent = self._imu_sent[len(arrived) :]

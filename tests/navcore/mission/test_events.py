@@ -22,8 +22,8 @@ CHASSIS = ChassisState(
 WELL = EventFacts(
     state=RunState.DRIVING, mode=NavMode.GNSS_PATH, tick_s=0.02, chassis=CHASSIS, chassis_age_s=0.02,
     system_age_s=0.05, pose_std=0.02, carried=0.0, gnss_age_s=0.2, gnss_trusted=True, row_age_s=None, row_reason="",
-    lateral_error=0.02, stuck=False, held_s=0.0, arming_s=0.0, link_age_s=0.5, link_loss=LinkLossPolicy.STOP, zone="",
-    start_distance=0.1, waiting_for_gnss=False,
+    lateral_error=0.02, captured=True, stuck=False, held_s=0.0, arming_s=0.0, link_age_s=0.5,
+    link_loss=LinkLossPolicy.STOP, zone="", start_distance=0.1, waiting_for_gnss=False,
 )  # fmt: skip
 FAULTS: dict[str, dict[str, Any]] = {
     "chassis_silent": {"chassis_age_s": 0.25},

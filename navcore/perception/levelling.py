@@ -1,0 +1,40 @@
+"""A body that leans sideways sees the row shifted: what it would have seen upright."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+from navcore.messages import RowObservation
+
+# Width assumed where none is known, m: it hardly matters to the shift.
+USUAL_WIDTH = 3.0
+
+
+def upright_offset(offset: float, width: float, height: float, roll: float) -> float:
+    """Offset of the centre line (m, left positive) that a camera `height` above the ground, leaning by `roll`, saw.
+
+    A ground line at lateral X stands at the angle atan(X / h) from the vertical; leaning turns all angles by the
+    roll, and carries the camera h sin(roll) to the right. `roll` is positive with the left side up (REP 103), rad.
+    """
+    left, right = (_turned(offset + side * width / 2, height, roll) for side in (1.0, -1.0))
+    return (left + right) / 2 - height * math.sin(roll)
+
+
+def leaning_offset(offset: float, width: float, height: float, roll: float) -> float:
+    """Inverse of `upright_offset` for the same width: what a leaning camera sees of a line at a true offset."""
+    beside = offset + height * math.sin(roll)
+    left, right = (_turned(beside + side * width / 2, height, -roll) for side in (1.0, -1.0))
+    return (left + right) / 2
+
+
+def levelled(row: RowObservation, height: float, roll: float) -> RowObservation:
+    """The observation as an upright camera would have made it; `roll` of the driving frame."""
+    if not row.valid or row.offset is None:
+        return row
+    return replace(row, offset=upright_offset(row.offset, row.width or USUAL_WIDTH, height, roll))
+
+
+def _turned(lateral: float, height: float, angle: float) -> float:
+    limit = math.radians(85.0)
+    return height * math.tan(min(max(math.atan2(lateral, height) + angle, -limit), limit))
