@@ -1,0 +1,383 @@
+"""The pose filter on drives with known truth."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pytest
+
+from navcore.geometry.se2 import SE2
+from navcore.localization.gnss_correction import GnssCorrectionParams
+from navcore.localization.pose_filter import PoseFilter, PoseFilterParams
+from navcore.messages import CameraName, FixQuality, GnssFix, ImuSample, PoseEstimate, RowObservation
+from tests.navcore.localization.drive import (
+    FRAME,
+    SECOND,
+    START_NS,
+    Drive,
+    Errors,
+    Message,
+    Profile,
+    chassis,
+    fix_at,
+    moved,
+    straight,
+    winding,
+)
+
+Change = Callable[[GnssFix, float], GnssFix | None]
+PARAMS = PoseFilterParams(gnss=GnssCorrectionParams(antenna_x=0.2))
+
+
+@dataclass
+class Result:
+    """Errors of the estimate at every chassis tick after the start; x, y in m, yaw in rad."""
+
+    filter: PoseFilter
+    t: list[float]
+    estimates: list[PoseEstimate]
+    errors: list[tuple[float, float, float]]
+
+    def worst(self, start_s: float = 0.0, end_s: float = 1e9) -> float:
+        """Largest position error in a stretch of time, m."""
+        return max(math.hypot(e[0], e[1]) for t, e in zip(self.t, self.errors, strict=True) if start_s <= t < end_s)
+
+    def worst_yaw(self, start_s: float = 0.0) -> float:
+        """Largest heading error, rad."""
+        return max(abs(e[2]) for t, e in zip(self.t, self.errors, strict=True) if t >= start_s)
+
+    def nees(self) -> list[float]:
+        """Normalised squared errors of (x, y, yaw), once a second."""
+        found = []
+        for estimate, error in list(zip(self.estimates, self.errors, strict=True))[::50]:
+            covariance = np.array(estimate.covariance).reshape(3, 3)
+            found.append(float(np.array(error) @ np.linalg.solve(covariance, np.array(error))))
+        return found
+
+
+def feed(pose_filter: PoseFilter, message: Message) -> None:
+    if isinstance(message, ImuSample):
+        pose_filter.add_imu(message)
+    elif isinstance(message, GnssFix):
+        pose_filter.add_gnss(message)
+    else:
+        pose_filter.add_chassis(message)
+
+
+def drive(
+    seed: int = 1, seconds: float = 30.0, profile: Profile = winding, change: Change | None = None,
+    errors: Errors | None = None, imu: bool = True,
+) -> Result:  # fmt: skip
+    world = Drive(seed, profile, errors)
+    result = Result(PoseFilter(FRAME, PARAMS), [], [], [])
+    for now_ns, message in world.run(seconds, change):
+        if imu or not isinstance(message, ImuSample):
+            feed(result.filter, message)
+        estimate = result.filter.estimate(now_ns)
+        if isinstance(message, ImuSample | GnssFix) or estimate is None:
+            continue
+        true = world.truth[-1]
+        error = (estimate.x - true.x, estimate.y - true.y, math.remainder(estimate.yaw - true.yaw, 2 * math.pi))
+        result.t.append((now_ns - START_NS) / SECOND)
+        result.estimates.append(estimate)
+        result.errors.append(error)
+    return result
+
+
+def status_after(result: Result) -> object:
+    return result.filter.status(result.estimates[-1].stamp_ns)
+
+
+def test_pose_is_within_ten_centimetres_and_one_degree_with_rtk() -> None:
+    for seed in range(5):
+        result = drive(seed)
+        assert result.worst() < 0.10
+        assert result.worst_yaw(5.0) < math.radians(1.2)
+
+
+def test_covariance_tells_the_truth_over_many_drives() -> None:
+    """Mean of the normalised squared error of 3 states is 3 for an honest filter; 5 % of them lie above 7.8."""
+    values = [v for seed in range(20) for v in drive(seed, 25.0).nees()]
+    assert 1.5 < float(np.mean(values)) < 3.6
+    assert float(np.mean(np.array(values) > 7.8)) < 0.08
+
+
+@pytest.mark.parametrize("quality", [FixQuality.RTK_FLOAT, FixQuality.SINGLE])
+def test_covariance_stays_honest_when_the_receivers_error_lasts(quality: FixQuality) -> None:
+    """Errors that stay for half a minute must not be averaged away by taking them for white."""
+    slow = {FixQuality.RTK_FLOAT: 0.3, FixQuality.SINGLE: 2.0}[quality]
+    white = {FixQuality.RTK_FLOAT: 0.1, FixQuality.SINGLE: 0.5}[quality]
+    errors = Errors(slow=slow, white=white, slow_s=40.0)
+    runs = [drive(s, 25.0, errors=errors, change=lambda fix, _: replace(fix, quality=quality)) for s in range(12)]
+    values = [v for run in runs for v in run.nees()]
+    assert float(np.mean(values)) < 4.5
+
+
+def test_nothing_is_estimated_before_position_and_heading_are_known() -> None:
+    world = Drive(1, straight)
+    pose_filter = PoseFilter(FRAME, PARAMS)
+    for now_ns, message in world.run(1.5, lambda fix, _: replace(fix, heading_rad=None)):
+        feed(pose_filter, message)
+        assert pose_filter.estimate(now_ns) is None
+    status = pose_filter.status(START_NS + 2 * SECOND)
+    assert not status.ready
+    assert "heading unknown" in status.reason
+
+
+@pytest.mark.parametrize("direction", [1.0, -1.0])
+def test_course_over_ground_gives_the_heading_where_there_is_no_dual_antenna(direction: float) -> None:
+    """In reverse the course points backwards."""
+    world = Drive(3, lambda t: (0.0, 0.0) if t < 1.0 else (0.8 * direction, 0.0))
+
+    def with_course(fix: GnssFix, t: float) -> GnssFix:
+        course = world.truth[-1].yaw + (math.pi if direction < 0 else 0.0)
+        moving = t > 1.2
+        return replace(
+            fix, heading_rad=None, speed=0.8 if moving else 0.0,
+            course_rad=math.remainder(course, 2 * math.pi) if moving else None,
+        )  # fmt: skip
+
+    pose_filter = PoseFilter(FRAME, PARAMS)
+    for _, message in world.run(12.0, with_course):
+        feed(pose_filter, message)
+    estimate = pose_filter.estimate(START_NS + 12 * SECOND)
+    assert estimate is not None
+    assert abs(math.remainder(estimate.yaw - world.truth[-1].yaw, 2 * math.pi)) < math.radians(3.0)
+
+
+def test_late_fix_changes_nothing_but_the_moment_it_is_known() -> None:
+    """The same fixes, 20 ms and 600 ms late: once all are in, the pose is the same bit for bit."""
+    poses = []
+    for latency in (0.02, 0.60):
+        world = Drive(4, winding, Errors(latency_s=latency))
+        pose_filter = PoseFilter(FRAME, PARAMS)
+        for _, message in world.run(10.0, lambda fix, t: fix if t < 9.0 else None):
+            feed(pose_filter, message)
+        poses.append(pose_filter.estimate(START_NS + 10 * SECOND))
+    assert poses[0] is not None
+    assert poses[0] == poses[1]
+
+
+def test_fix_half_a_second_old_does_not_drag_the_pose_back() -> None:
+    result = drive(5, 25.0, profile=straight, errors=Errors(latency_s=0.5))
+    assert result.worst() < 0.12
+
+
+def test_same_inputs_give_the_same_bits() -> None:
+    assert drive(6, 15.0).estimates == drive(6, 15.0).estimates
+
+
+@pytest.mark.parametrize("jump", [0.3, 0.5, 1.0, 5.0, 50.0])
+def test_jump_of_the_receiver_moves_the_pose_less_than_thirty_centimetres(jump: float) -> None:
+    """For two seconds; the doubt is told within one."""
+    result = drive(7, 20.0, change=lambda fix, t: moved(fix, jump, 0.0) if 10.0 <= t < 12.0 else fix)
+    assert result.worst() < 0.3
+    if jump >= 0.5:
+        assert result.filter.status(result.estimates[-1].stamp_ns).rejected["position"] >= 8
+
+
+def test_doubt_is_told_at_once_and_lasts_as_long_as_the_jump() -> None:
+    result = drive(8, 11.5, change=lambda fix, t: moved(fix, 2.0, 0.0) if t >= 10.0 else fix)
+    status = result.filter.status(result.estimates[-1].stamp_ns)
+    assert 1.0 < status.position_doubt_s < 1.7
+    assert "2.0" in status.reason
+
+
+def test_receiver_that_holds_to_its_place_is_believed_in_the_end_and_says_so() -> None:
+    result = drive(9, 20.0, change=lambda fix, t: moved(fix, 2.0, 0.0) if t >= 10.0 else fix)
+    status = result.filter.status(result.estimates[-1].stamp_ns)
+    assert status.relocations == 1
+    assert status.position_doubt_s == 0.0
+    assert 1.8 < result.worst(19.0) < 2.2
+
+
+def test_wandering_fixes_are_never_believed() -> None:
+    rng = np.random.default_rng(3)
+    result = drive(10, 20.0, change=lambda fix, t: moved(fix, *rng.normal(0.0, 8.0, 2)) if t >= 8.0 else fix)
+    assert result.filter.status(result.estimates[-1].stamp_ns).relocations == 0
+    assert result.worst() < 1.0
+
+
+def test_outage_is_bridged_and_its_uncertainty_is_honest() -> None:
+    """20 s and 16 m without GNSS: within 3 sigma and half a metre, and the age and the way are told."""
+    runs = [drive(seed, 30.0, change=lambda fix, t: None if t >= 10.0 else fix) for seed in range(8)]
+    for run in runs:
+        status = run.filter.status(run.estimates[-1].stamp_ns)
+        assert status.fix_age_s is not None
+        assert status.position_std is not None
+        assert 19.5 < status.fix_age_s < 20.5
+        assert 15.0 < status.dead_reckoned < 17.0
+        assert run.worst() < max(0.5, 3.5 * status.position_std)
+    finals = [math.hypot(*run.errors[-1][:2]) for run in runs]
+    assert float(np.mean(finals)) < 0.5
+
+
+def test_float_after_fixed_does_not_pull_the_pose() -> None:
+    """A float solution 0.4 m off, right after a fixed one: the pose stays where odometry knows it to be."""
+
+    def to_float(fix: GnssFix, t: float) -> GnssFix:
+        return replace(moved(fix, 0.4, 0.0), quality=FixQuality.RTK_FLOAT) if t >= 10.0 else fix
+
+    assert drive(11, 16.0, change=to_float).worst(10.0) < 0.15
+
+
+@pytest.mark.parametrize("turn_deg", [20.0, 90.0, 180.0])
+def test_wrong_heading_is_rejected_and_told(turn_deg: float) -> None:
+    def flipped(fix: GnssFix, t: float) -> GnssFix:
+        assert fix.heading_rad is not None
+        wrong = math.remainder(fix.heading_rad + math.radians(turn_deg), 2 * math.pi)
+        return replace(fix, heading_rad=wrong) if t >= 10.0 else fix
+
+    result = drive(12, 16.0, change=flipped)
+    status = result.filter.status(result.estimates[-1].stamp_ns)
+    assert result.worst_yaw(5.0) < math.radians(1.5)
+    assert status.heading_doubt_s > 5.0
+    assert "heading is" in status.reason
+
+
+def test_without_gyro_the_wheels_carry_on_with_more_doubt() -> None:
+    with_gyro, without = drive(13, 20.0), drive(13, 20.0, imu=False)
+    assert without.worst(5.0) < 0.25
+    assert without.estimates[-1].covariance[8] > with_gyro.estimates[-1].covariance[8]
+    assert without.estimates[-1].source.endswith("+wheels")
+
+
+def test_gyro_bias_is_learnt_while_standing() -> None:
+    """A bias of 1 deg/s would turn the pose by 20 deg in 20 s of outage."""
+    errors = Errors(gyro_bias=0.017)
+    still_then_blind = drive(
+        14, 30.0, profile=lambda t: (0.0, 0.0) if t < 8.0 else (0.5, 0.0), errors=errors,
+        change=lambda fix, t: None if t >= 10.0 else fix,
+    )  # fmt: skip
+    assert still_then_blind.worst_yaw() < math.radians(2.5)
+
+
+def test_turn_on_the_spot_follows_the_gyro_and_not_the_wheels() -> None:
+    """Wheels over-read the turn 1.7 times; without GNSS the yaw must still be right within 2 deg."""
+    result = drive(
+        15, 20.0, profile=lambda t: (0.0, 0.0) if t < 5.0 else (0.0, 0.5),
+        change=lambda fix, t: None if t >= 5.0 else fix,
+    )  # fmt: skip
+    assert result.worst_yaw() < math.radians(2.5)
+
+
+def row_seen(stamp_ns: int, offset: float, heading: float, camera: CameraName = CameraName.FRONT) -> RowObservation:
+    return RowObservation(
+        stamp_ns=stamp_ns, camera=camera, valid=True, reason="", offset=offset, heading=heading, offset_std=0.03,
+        heading_std=0.01, quality=0.9,
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("camera", list(CameraName))
+def test_row_holds_the_pose_across_it_while_gnss_is_gone(camera: CameraName) -> None:
+    """The site map has the row 0.5 m beside the true one; across it the pose stays, 30 m along it."""
+    world = Drive(16, straight, Errors(gyro_bias=0.02))
+    start = world.truth[0]
+    line = SE2(start.x - 0.5 * math.sin(start.yaw), start.y + 0.5 * math.cos(start.yaw), start.yaw)
+    pose_filter = PoseFilter(FRAME, PARAMS)
+    turned = camera is CameraName.REAR
+    for now_ns, message in world.run(40.0, lambda fix, t: None if t >= 4.0 else fix):
+        feed(pose_filter, message)
+        if now_ns % (SECOND // 10) == 0 and isinstance(message, ImuSample):
+            true = world.truth[-1]
+            left = -math.sin(start.yaw) * (true.x - start.x) + math.cos(start.yaw) * (true.y - start.y)
+            pose_filter.add_row(row_seen(now_ns, left if turned else -left, start.yaw - true.yaw, camera), line)
+    estimate = pose_filter.estimate(now_ns)
+    assert estimate is not None
+    true = world.truth[-1]
+    across = -math.sin(start.yaw) * (estimate.x - true.x) + math.cos(start.yaw) * (estimate.y - true.y)
+    assert abs(across) < 0.25
+    assert pose_filter.status(now_ns).accepted["row"] > 300
+
+
+def test_row_that_lies_elsewhere_is_rejected() -> None:
+    result = drive(17, 10.0, profile=straight)
+    last = result.estimates[-1]
+    line = SE2(last.x, last.y, last.yaw)
+    for _ in range(10):
+        result.filter.add_row(row_seen(last.stamp_ns, 0.0, 0.0), line)
+    result.filter.add_row(row_seen(last.stamp_ns, 1.5, 0.0), line)
+    assert result.filter.status(last.stamp_ns).rejected["row"] == 1
+
+
+BAD = (math.nan, math.inf, -math.inf)
+
+
+@pytest.mark.parametrize("bad", BAD)
+def test_nan_and_infinity_are_refused_at_the_border(bad: float) -> None:
+    result = drive(18, 5.0)
+    before = result.estimates[-1]
+    now_ns = before.stamp_ns
+    pose_filter = result.filter
+    pose_filter.add_chassis(chassis(now_ns, bad, 0.0))
+    pose_filter.add_chassis(chassis(now_ns, 0.0, bad))
+    pose_filter.add_imu(ImuSample(stamp_ns=now_ns, wx=0, wy=0, wz=bad, ax=0, ay=0, az=0))
+    good = fix_at(now_ns, before.x, before.y, before.yaw)
+    for fix in (
+        replace(good, lat_deg=bad), replace(good, lon_deg=bad), replace(good, height_m=bad),
+        replace(good, heading_rad=bad), replace(good, heading_std_rad=bad), replace(good, std_east_m=bad),
+        replace(good, speed=bad),
+    ):  # fmt: skip
+        pose_filter.add_gnss(fix)
+    pose_filter.add_row(row_seen(now_ns, bad, 0.0), SE2())
+    assert pose_filter.estimate(now_ns) == before
+    assert sum(n for reason, n in pose_filter.status(now_ns).rejected.items() if "not finite" in reason) == 11
+
+
+def test_fix_from_the_future_or_from_long_ago_is_refused() -> None:
+    result = drive(19, 5.0)
+    now_ns = result.estimates[-1].stamp_ns
+    for offset_s in (-3600.0, -3.0, 1.0, 3600.0):
+        result.filter.add_gnss(fix_at(now_ns + round(offset_s * SECOND), 0.0, 0.0, 0.0))
+    rejected = result.filter.status(now_ns).rejected
+    assert rejected["position: too late"] == 2
+    assert rejected["position: stamped in the future"] == 2
+
+
+def test_dead_reckoning_fix_of_the_receiver_is_no_position() -> None:
+    result = drive(20, 12.0, change=lambda f, t: replace(f, quality=FixQuality.DEAD_RECKONING) if t > 8.0 else f)
+    age = result.filter.status(result.estimates[-1].stamp_ns).fix_age_s
+    assert age is not None
+    assert age > 3.5
+
+
+def test_restart_waits_for_a_new_position_and_heading() -> None:
+    result = drive(21, 5.0)
+    now_ns = result.estimates[-1].stamp_ns
+    result.filter.restart("the operator asked for it")
+    assert result.filter.estimate(now_ns) is None
+    result.filter.add_gnss(fix_at(now_ns, 50.0, 60.0, 1.0))
+    estimate = result.filter.estimate(now_ns)
+    assert estimate is not None
+    assert estimate.yaw == pytest.approx(1.0, abs=1e-6)
+    assert estimate.x + 0.2 * math.cos(1.0) == pytest.approx(50.0, abs=0.01)
+
+
+def test_odometry_never_jumps_whatever_the_receiver_does() -> None:
+    """Between two ticks of 10 ms it moves at most 1.5 cm at 0.8 m/s, also while the pose is moved 30 m."""
+    world = Drive(22, winding)
+    pose_filter = PoseFilter(FRAME, PARAMS)
+    last = None
+    for now_ns, message in world.run(20.0, lambda fix, t: moved(fix, 30.0, 0.0) if t > 8.0 else fix):
+        feed(pose_filter, message)
+        pose = pose_filter.odom_at(now_ns)
+        if last is not None:
+            assert math.hypot(pose.x - last.x, pose.y - last.y) < 0.015
+        last = pose
+    assert pose_filter.status(now_ns).relocations == 1
+
+
+def test_odometry_of_the_past_is_what_it_was_then() -> None:
+    world = Drive(23, winding)
+    pose_filter = PoseFilter(FRAME, PARAMS)
+    then: dict[int, SE2] = {}
+    for now_ns, message in world.run(6.0):
+        feed(pose_filter, message)
+        if isinstance(message, ImuSample):
+            then[now_ns] = pose_filter.odom_at(now_ns)
+    for stamp_ns, pose in list(then.items())[-200::20]:
+        again = pose_filter.odom_at(stamp_ns)
+        assert math.hypot(again.x - pose.x, again.y - pose.y) < 0.01
