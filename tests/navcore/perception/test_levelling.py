@@ -13,7 +13,7 @@ from navcore.geometry.pinhole import robot_camera, rotation_from_rpy
 from navcore.perception.levelling import leaning_offset, upright_offset
 
 HEIGHT = 0.8
-offsets, rolls = st.floats(-0.8, 0.8), st.floats(-0.07, 0.07)
+offsets, rolls = st.floats(-0.5, 0.5), st.floats(-0.05, 0.05)
 
 
 @given(offsets, rolls)

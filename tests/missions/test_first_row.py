@@ -1,0 +1,28 @@
+"""The robot drives from the warehouse into a row and back out, in spite of a wrong map and no GNSS in the row."""
+
+from __future__ import annotations
+
+import statistics
+from collections.abc import Callable
+
+import pytest
+from navcore.planning.mission_planner import mission_for_row
+
+from navcore.maps.mission import RowExit
+from navcore.maps.site_map import SiteMap
+from navcore.messages import NavMode, RunState
+from tests.missions.conftest import Drive
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_robot_drives_into_a_row_and_back_out_in_reverse(
+    park: Callable[[int], Drive], farm: SiteMap, seed: int
+) -> None:
+    drive = park(seed)
+    drive.start(farm, mission_for_row(farm, "r1", RowExit.REVERSE))
+    last = drive.until_state(RunState.FINISHED, RunState.STOPPED, seconds=600)
+    assert last.decision.status.state is RunState.FINISHED, last.decision.status.events
+    lateral = [abs(e) for e in drive.lateral_in_rows()]
+    assert statistics.mean(lateral) < 0.10  # m
+    assert max(lateral) < 0.30  # m
+    assert [s.after for s in drive.switches][:2] == [NavMode.ROW_ENTRY, NavMode.ROW]
