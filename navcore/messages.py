@@ -472,6 +472,37 @@ class RecorderStatus:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class TrueRow:
+    """A row as it truly is in the simulated world: its centre line, midway between its plants, in `map`."""
+
+    id: str
+    start: Point
+    end: Point
+    width: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SimFarm:
+    """The rows of the simulated world, for the score. Never an input of the navigator."""
+
+    stamp_ns: int
+    rows: tuple[TrueRow, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SimContact:
+    """The first instant at which the robot's body truly touches a thing: post, trunk, building or keep_out zone.
+
+    (x, y) is the thing's place in `map`, m.
+    """
+
+    stamp_ns: int
+    kind: str
+    x: float
+    y: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class NavPrelude:
     """All that the navigator consumed before the run, since it was new: replay begins with it.
 

@@ -119,6 +119,12 @@ CAMERA_VIEW = Topic(
 SIM_TRUTH = Topic(
     name="sim/truth", type=m.SimTruth, publisher="world", rate_hz=50, max_age_s=0.2, logged=True, shown=False
 )
+SIM_FARM = Topic(
+    name="sim/farm", type=m.SimFarm, publisher="world", rate_hz=1, max_age_s=None, logged=True, shown=False
+)
+SIM_CONTACT = Topic(
+    name="sim/contact", type=m.SimContact, publisher="world", rate_hz=0, max_age_s=None, logged=True, shown=False
+)
 
 RECORDER_STATUS = Topic(
     name="recorder/status", type=m.RecorderStatus, publisher="recorder", rate_hz=1, max_age_s=3.0, logged=False,
@@ -132,6 +138,7 @@ TOPICS: dict[str, Topic] = {
     t.name: t
     for t in (
         NAV_INPUTS, NAV_DECISION, NAV_STATUS, NAV_SWITCH, NAV_PLAN, CAMERA_REQUEST, GNSS_FIX, CHASSIS_STATE,
-        IMU_SAMPLE, ROW_OBSERVATION, CAMERA_VIEW, SIM_TRUTH, RECORDER_STATUS, NAV_PRELUDE,
+        IMU_SAMPLE, ROW_OBSERVATION, CAMERA_VIEW, SIM_TRUTH, SIM_FARM, SIM_CONTACT, RECORDER_STATUS,
+        NAV_PRELUDE,
     )
 }  # fmt: skip

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from collections import defaultdict
-from dataclasses import dataclass
 from enum import StrEnum
 
 from shapely import Polygon, box, prepare
 from shapely.affinity import affine_transform
 
 from navcore.maps.site_map import Point, SiteMap, ZoneKind
+from navcore.messages import SimContact
 from navcore.sim.orchard import Orchard, Shed
 from navcore.vehicle import VehicleParams
 
@@ -24,16 +24,6 @@ class ContactKind(StrEnum):
     TRUNK = "trunk"
     BUILDING = "building"
     KEEP_OUT = "keep_out"
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Contact:
-    """The first instant of touching one thing; (x, y) is the thing's place in `map`, m."""
-
-    stamp_ns: int
-    kind: ContactKind
-    x: float
-    y: float
 
 
 Bounds = tuple[float, float, float, float]
@@ -57,11 +47,11 @@ class ContactDetector:
         self._areas = _areas(site, orchard)
         self._touched: frozenset[tuple[ContactKind, float, float]] = frozenset()
 
-    def update(self, stamp_ns: int, x: float, y: float, yaw: float) -> tuple[Contact, ...]:
+    def update(self, stamp_ns: int, x: float, y: float, yaw: float) -> tuple[SimContact, ...]:
         """What is touched now and was not touched at the last call."""
         touched = frozenset((*self._plants(x, y, yaw), *self._inside(x, y, yaw)))
         fresh, self._touched = touched - self._touched, touched
-        return tuple(Contact(stamp_ns=stamp_ns, kind=k, x=tx, y=ty) for k, tx, ty in sorted(fresh))
+        return tuple(SimContact(stamp_ns=stamp_ns, kind=k, x=tx, y=ty) for k, tx, ty in sorted(fresh))
 
     def _plants(self, x: float, y: float, yaw: float) -> list[tuple[ContactKind, float, float]]:
         c, s = math.cos(yaw), math.sin(yaw)

@@ -87,9 +87,9 @@ class GnssReceiver:
     def epoch(self, stamp_ns: int, elapsed_s: float, antenna: AntennaState, *, frozen: bool = False) -> ReceiverEpoch:
         """Solve the epoch captured at `stamp_ns`, `elapsed_s` after the world's start, and send it.
 
-        A frozen receiver sends fresh times with its last solution.
+        A frozen receiver sends fresh times with its last solution; a starved one gets no corrections.
         """
-        solution = self._solve(elapsed_s, antenna)
+        solution = self._solve(elapsed_s, antenna, starved)
         self.last = solution
         epoch = self._describe(solution, elapsed_s, antenna)
         if frozen and self._sent is not None:
@@ -104,14 +104,14 @@ class GnssReceiver:
         arrived, self._pending = self._pending[:count], self._pending[count:]
         return b"".join(data for _, data in arrived)
 
-    def _solve(self, elapsed_s: float, antenna: AntennaState) -> RtkSolution:
+    def _solve(self, elapsed_s: float, antenna: AntennaState, starved: bool) -> RtkSolution:
         if _within(elapsed_s, self._params.outages_s):
             return self._solver.lose_everything()
         if elapsed_s - self._sky_at_s >= _SKY_PERIOD_S:
             self._sky = visible_satellites(self._params.utc_start_s % 86400.0 + elapsed_s, self._lat_deg)
             self._sky_at_s = elapsed_s
         dt_s = 1.0 / self._params.rate_hz
-        starved = _within(elapsed_s, self._params.correction_outages_s)
+        starved = starved or _within(elapsed_s, self._params.correction_outages_s)
         self._age_s = self._age_s + dt_s if starved else 1.0 + elapsed_s % 1.0
         loss = self._canopy.loss_db(antenna.x, antenna.y, antenna.z, self._sky)
         return self._solver.update(dt_s, self._sky, loss, self._age_s)

@@ -10,9 +10,9 @@ import numpy as np
 from navcore.errors import ContractError, InputError, NotFiniteError
 from navcore.geometry.pinhole import rotation_from_rpy
 from navcore.maps.site_map import SiteMap
-from navcore.messages import ImuSample, SimTruth
+from navcore.messages import ImuSample, SimContact, SimFarm, SimTruth, TrueRow
 from navcore.sim.canopy import Canopy, CanopyParams
-from navcore.sim.contacts import Contact, ContactDetector
+from navcore.sim.contacts import ContactDetector
 from navcore.sim.gnss_receiver import AntennaState, GnssReceiver, GnssReceiverParams
 from navcore.sim.imu import Imu, ImuParams
 from navcore.sim.map_error import MapErrorParams, perturb
@@ -58,6 +58,7 @@ class WorldFaults:
 
     Attributes:
         gnss_silent: the receiver sends nothing. gnss_frozen: fresh times, old position.
+        corrections_lost: no RTK corrections arrive.
         imu_silent, imu_frozen: likewise.
         wheels_frozen: the chassis reports its last wheel state with fresh stamps.
         stuck: the wheels turn and the robot stays.
@@ -66,6 +67,7 @@ class WorldFaults:
 
     gnss_silent: bool = False
     gnss_frozen: bool = False
+    corrections_lost: bool = False
     imu_silent: bool = False
     imu_frozen: bool = False
     wheels_frozen: bool = False
@@ -89,7 +91,7 @@ class WorldOutput:
     wheels: WheelState
     imu: tuple[ImuSample, ...]
     nmea: bytes
-    contacts: tuple[Contact, ...]
+    contacts: tuple[SimContact, ...]
 
 
 class World:
@@ -119,7 +121,7 @@ class World:
         self._imu_latency_ns = round(params.imu.latency_s * 1e9)
         self._acceleration = 0.0
         self._imu_sent: list[ImuSample] = []
-        self._contacts: list[Contact] = []
+        self._contacts: list[SimContact] = []
         self._wheels = self._drive.wheels(start_ns)
 
     def advance(self, now_ns: int, v: float, omega: float) -> WorldOutput:
@@ -135,6 +137,11 @@ class World:
         while self._now_ns + STEP_NS <= now_ns:
             self._step()
         return self._output(now_ns)
+
+    def farm(self) -> SimFarm:
+        """The true rows, for the score; to be published about once a second."""
+        rows = tuple(TrueRow(id=r.id, start=r.start, end=r.end, width=r.width) for r in self.site.rows)
+        return SimFarm(stamp_ns=self._now_ns, rows=rows)
 
     def _step(self) -> None:
         self._now_ns += STEP_NS
@@ -175,7 +182,10 @@ class World:
         if self.faults.gnss_silent:
             return
         elapsed_s = (self._now_ns - self._start_ns) * 1e-9
-        self._gnss.epoch(self._now_ns, elapsed_s, self._antenna(), frozen=self.faults.gnss_frozen)
+        faults = self.faults
+        self._gnss.epoch(
+            self._now_ns, elapsed_s, self._antenna(), frozen=faults.gnss_frozen, starved=faults.corrections_lost
+        )
 
     def _antenna(self) -> AntennaState:
         d, body = self._drive, self._vehicle

@@ -137,3 +137,17 @@ def test_nan_targets_and_time_running_backwards_are_refused(farm: SiteMap) -> No
 def test_a_site_without_a_warehouse_says_what_to_do(farm: SiteMap) -> None:
     with pytest.raises(InputError, match="Draw the warehouse"):
         World(replace(farm, warehouse=None), PAPER_A, WorldParams())
+
+
+def test_lost_corrections_cost_the_fix_after_a_while(farm: SiteMap) -> None:
+    robot = world(farm)
+    robot.faults = WorldFaults(corrections_lost=True)
+    text = b"".join(o.nmea for o in run(robot, 30.0, 0.0))
+    qualities = [line.split(b",")[6] for line in text.split(b"\r\n") if line.startswith(b"$GNGGA") and b"*" in line]
+    assert (qualities[0], qualities[-1]) == (b"4", b"5")
+
+
+def test_the_world_tells_its_true_rows_for_the_score(farm: SiteMap) -> None:
+    robot = world(farm)
+    assert [row.id for row in robot.farm().rows] == [row.id for row in farm.rows]
+    assert robot.farm().rows[0].start == robot.site.rows[0].start != farm.rows[0].start
