@@ -84,7 +84,9 @@ class GnssReceiver:
         """From epoch to epoch."""
         return round(1e9 / self._params.rate_hz)
 
-    def epoch(self, stamp_ns: int, elapsed_s: float, antenna: AntennaState, *, frozen: bool = False) -> ReceiverEpoch:
+    def epoch(
+        self, stamp_ns: int, elapsed_s: float, antenna: AntennaState, *, frozen: bool = False, starved: bool = False
+    ) -> ReceiverEpoch:
         """Solve the epoch captured at `stamp_ns`, `elapsed_s` after the world's start, and send it.
 
         A frozen receiver sends fresh times with its last solution; a starved one gets no corrections.
