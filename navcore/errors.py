@@ -34,7 +34,15 @@ class NotFiniteError(InputError):
 
 
 class SiteError(InputError):
-    """A site map or its GeoJSON is unusable."""
+    """A site map or its GeoJSON is unusable.
+
+    Attributes:
+        reasons: every reason, each a sentence; empty where the text says it all.
+    """
+
+    def __init__(self, text: str, reasons: Iterable[str] = ()) -> None:
+        self.reasons = tuple(reasons)
+        super().__init__(text)
 
 
 class MissionError(InputError):
