@@ -43,7 +43,7 @@ class LightParams:
     cloud: float = 0.35
     night: bool = False
     lamp: float = 1.0
-    exposure: float = 0.5
+    exposure: float = 0.72
     red_gain: float = 1.0
     blue_gain: float = 1.0
     noise: float = 0.006
@@ -53,9 +53,9 @@ class LightParams:
 
     def __post_init__(self) -> None:
         bounds = {
-            "sun_azimuth": (-10.0, 10.0), "sun_elevation": (0.05, math.pi / 2), "cloud": (0.0, 1.0), "lamp": (0.0, 10.0),
-            "exposure": (0.05, 20.0), "red_gain": (0.5, 2.0), "blue_gain": (0.5, 2.0), "noise": (0.0, 0.1),
-            "blur_px": (0.0, 3.0), "haze_per_m": (0.0, 0.05),
+            "sun_azimuth": (-10.0, 10.0), "sun_elevation": (0.05, math.pi / 2), "cloud": (0.0, 1.0),
+            "lamp": (0.0, 10.0), "exposure": (0.05, 20.0), "red_gain": (0.5, 2.0), "blue_gain": (0.5, 2.0),
+            "noise": (0.0, 0.1), "blur_px": (0.0, 3.0), "haze_per_m": (0.0, 0.05),
         }  # fmt: skip
         for name, (low, high) in bounds.items():
             if not low <= getattr(self, name) <= high:
@@ -64,10 +64,10 @@ class LightParams:
 
 _LIGHTS = {
     LightName.NOON: LightParams(sun_azimuth=1.9, sun_elevation=1.1, cloud=0.3),
-    LightName.AFTERNOON: LightParams(sun_azimuth=2.5, sun_elevation=0.65, cloud=0.4),
-    LightName.EVENING: LightParams(sun_azimuth=2.2, sun_elevation=0.2, cloud=0.35, exposure=0.65, red_gain=1.06),
-    LightName.BACKLIT: LightParams(sun_azimuth=0.12, sun_elevation=0.3, cloud=0.2, exposure=0.5, haze_per_m=0.007),
-    LightName.OVERCAST: LightParams(sun_azimuth=2.0, sun_elevation=0.8, cloud=1.0, exposure=0.72),
+    LightName.AFTERNOON: LightParams(sun_azimuth=2.5, sun_elevation=0.65, cloud=0.4, exposure=0.78),
+    LightName.EVENING: LightParams(sun_azimuth=2.2, sun_elevation=0.2, cloud=0.35, exposure=0.95, red_gain=1.06),
+    LightName.BACKLIT: LightParams(sun_azimuth=0.12, sun_elevation=0.3, cloud=0.2, exposure=0.85, haze_per_m=0.007),
+    LightName.OVERCAST: LightParams(sun_azimuth=2.0, sun_elevation=0.8, cloud=1.0, exposure=1.05),
     LightName.NIGHT: LightParams(night=True, exposure=1.0, noise=0.016, blue_gain=0.94),
 }
 

@@ -63,7 +63,7 @@ class Scene:
         """Shadows around a place; an empty map where there is no sun."""
         if self._shadows is not None:
             return self._shadows.around(x, y)
-        return Shadow(height=np.zeros((1, 1), np.int16), shear=(0.0, 0.0), centre=(0.0, 0.0))
+        return Shadow(height=np.zeros(1, np.int16), shear=(0.0, 0.0), centre=(0.0, 0.0))
 
 
 class CameraRenderer:
@@ -102,7 +102,9 @@ class CameraRenderer:
         layers.inverse_depth[:], layers.tag[:] = 0.0, 0
         while (count := tessellate(view, lighting.source, scene.chunks, *self._queue)) < 0:
             self._queue = new_queue(2 * len(self._queue.tint))
-        rasterise(view, *self._queue, count, *scene.atlas, *layers)
+        rasterise(
+            view, *self._queue, count, *scene.atlas, layers.inverse_depth, layers.albedo, layers.shine, layers.tag
+        )
         lay_ground(view, lighting.source, layers, scene.ground, scene.atlas)
 
     def _view(self, truth: SimTruth) -> View:
@@ -111,7 +113,8 @@ class CameraRenderer:
         centre = R_map_base @ (camera.x, camera.y, camera.z) + (truth.x, truth.y, 0.0)
         right, down, forward = (R_map_base @ camera.R_base_camera()).T
         return View(
-            right=vector(right), down=vector(down), forward=vector(forward), centre=vector(centre), fx=float(camera.fx), fy=float(camera.fy),
+            right=vector(right), down=vector(down), forward=vector(forward), centre=vector(centre),
+            fx=float(camera.fx), fy=float(camera.fy),
             cx=float(camera.cx), cy=float(camera.cy), width=camera.width_px, height=camera.height_px,
             range=float(self._params.range),
         )  # fmt: skip

@@ -27,9 +27,11 @@ def render_dataset(
     """Write `count` pictures to `folder`/images and their labels to `folder`/annotations.json.
 
     The same seed gives the same pictures. Sets of different seeds share no farm; use one seed each for training,
-    validation and test. Beside COCO's fields an annotation has `ignore` (too far, small or hidden to count), `visible`
-    (share), `range` (m), `foot_visible`, and `foot` (u, v px) where the foot is in the picture and nearly seen; an image
-    has `season`, `light`, `trellis` and `place`. Raises InputError for a count or seed that makes no sense.
+    validation and test. Beside COCO's fields an annotation has `ignore` (too far, small or hidden to count),
+    `visible` (share), `range` (m), `foot_visible`, and `foot` (u, v px) where the foot is in the picture and nearly
+    seen; an image has `season`, `light`, `trellis` and `place`.
+
+    Raises InputError for a count or seed that makes no sense.
     """
     if count < 1 or seed < 0:
         raise InputError("Ask for at least one picture and give a seed that is not negative.")

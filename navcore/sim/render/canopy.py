@@ -11,7 +11,7 @@ from navcore.sim.render.buffers import Floats
 from navcore.sim.textures.atlas import Material
 
 _VSP_CARDS_PER_M = 17.0
-_ROOF_CARDS_PER_M2 = 6.5
+_ROOF_CARDS_PER_M2 = 10.0
 _TREE_CARDS = 60.0
 _TUFTS_PER_M = 7.0
 _LEAF_MATERIALS = (Material.LEAVES_A, Material.LEAVES_B, Material.LEAVES_C)

@@ -20,5 +20,5 @@ def compiled(function: Callable[P, R]) -> Callable[P, R]:
 
 
 def inlined(function: Callable[P, R]) -> Callable[P, R]:
-    """As `compiled`, but melted into its caller: for what is called per pixel, where passing all tables would cost."""
+    """As `compiled`, but melted into its caller: for what is called per pixel."""
     return cast("Callable[P, R]", njit(cache=True, nogil=True, error_model="numpy", forceinline=True)(function))

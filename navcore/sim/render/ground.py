@@ -9,14 +9,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from navcore.sim.orchard import Orchard
-from navcore.sim.render.buffers import Bytes, Floats, Floats32, Layers, View
+from navcore.sim.render.buffers import Bytes, Floats, Layers, View
 from navcore.sim.render.compiled import compiled, inlined
 from navcore.sim.textures.atlas import Atlas
 
 CELL_M = 0.5
 MARGIN_M = 8.0
 REACH_M = 6.0
-NOISE_SIDE = 512
+NOISE_MASK = 511
+BARE_STRIP_M = 0.34
+HIGH = 2.0**24  # keeps coordinates positive, so that truncation rounds down; a multiple of every texture side
 FAR_M = 400.0
 TEXELS_PER_M = 256.0
 TEXTURES_PER_M = 0.5
@@ -48,7 +50,7 @@ class Ground(NamedTuple):
         x, y: south-western corner in `map`, m.
         lines: (L, 6) first end, unit direction, length, reach.
         roads: (R, 6) first end, unit direction, length, half width.
-        noise: (512, 512) tileable, 0 to 1.
+        noise: (512, 512) tileable, 0 to 255.
         grassy: share of the open ground that grass covers, 0 to 1.
         tint: colours of an orthophoto; none where `tint.per_m` is 0.
     """
@@ -59,12 +61,12 @@ class Ground(NamedTuple):
     y: float
     lines: Floats
     roads: Floats
-    noise: Floats32
+    noise: Bytes
     grassy: float
     tint: GroundTint
 
 
-def build_ground(orchard: Orchard, noise: Floats32, tint: GroundTint | None) -> Ground:
+def build_ground(orchard: Orchard, noise: Bytes, tint: GroundTint | None) -> Ground:
     """The ground of an orchard."""
     lines, roads = (
         _stretches(orchard.plant_lines, orchard.line_reach),
@@ -77,8 +79,12 @@ def build_ground(orchard: Orchard, noise: Floats32, tint: GroundTint | None) -> 
     grassy = float(np.random.default_rng((orchard.params.seed, 17)).uniform(0.25, 0.85))
     return Ground(
         line=nearest(lines, x, y, rows, columns), road=nearest(roads, x, y, rows, columns), x=x, y=y, lines=lines,
-        roads=roads, noise=noise, grassy=grassy, tint=tint or GroundTint(np.zeros((1, 1, 3), np.uint8), 0.0, 0.0, 0.0),
+        roads=roads, noise=noise, grassy=grassy, tint=tint or _no_tint(),
     )  # fmt: skip
+
+
+def _no_tint() -> GroundTint:
+    return GroundTint(colour=np.zeros((1, 1, 3), np.uint8), x=0.0, y=0.0, per_m=0.0)
 
 
 def _stretches(segments: Floats, extra: Floats) -> Floats:
@@ -95,56 +101,78 @@ def nearest(stretches: Floats, x: float, y: float, rows: int, columns: int) -> N
     best = np.full((rows, columns), REACH_M)
     index = np.full((rows, columns), -1, np.int16)
     for k in range(len(stretches)):
-        x0, y0 = stretches[k, 0], stretches[k, 1]
-        x1, y1 = x0 + stretches[k, 4] * stretches[k, 2], y0 + stretches[k, 4] * stretches[k, 3]
+        x0, y0, c, s, length = stretches[k, 0], stretches[k, 1], stretches[k, 2], stretches[k, 3], stretches[k, 4]
+        x1, y1 = x0 + length * c, y0 + length * s
         i0, i1 = int((min(y0, y1) - REACH_M - y) / CELL_M), int((max(y0, y1) + REACH_M - y) / CELL_M)
         j0, j1 = int((min(x0, x1) - REACH_M - x) / CELL_M), int((max(x0, x1) + REACH_M - x) / CELL_M)
         for i in range(max(i0, 0), min(i1 + 1, rows)):
             for j in range(max(j0, 0), min(j1 + 1, columns)):
-                d = away(stretches, k, x + (j + 0.5) * CELL_M, y + (i + 0.5) * CELL_M)
+                d = away(x0, y0, c, s, length, x + (j + 0.5) * CELL_M, y + (i + 0.5) * CELL_M)
                 if d < best[i, j]:
                     best[i, j], index[i, j] = d, k
     return index
 
 
 @inlined
-def away(stretches: Floats, k: int, x: float, y: float) -> float:
-    """Distance of a point from stretch k, m."""
-    dx, dy = x - stretches[k, 0], y - stretches[k, 1]
-    along = dx * stretches[k, 2] + dy * stretches[k, 3]
-    left = dy * stretches[k, 2] - dx * stretches[k, 3]
-    over = max(-along, along - stretches[k, 4], 0.0)
+def away(x0: float, y0: float, c: float, s: float, length: float, x: float, y: float) -> float:
+    """Distance of a point from a stretch that starts at (x0, y0) and runs along (c, s), m."""
+    dx, dy = x - x0, y - y0
+    along, left = dx * c + dy * s, dy * c - dx * s
+    over = max(-along, along - length, 0.0)
     return math.sqrt(over * over + left * left)
 
 
 @compiled
 def lay_ground(view: View, light: Light, layers: Layers, ground: Ground, atlas: Atlas) -> None:
-    """Put the plane z = 0 into the layers wherever nothing stands before it."""
+    """Put the plane z = 0 into the layers wherever nothing stands before it.
+
+    Functions called per pixel take numbers only: handing over an array costs more than the work itself.
+    """
     depth, albedo, shine, tags = layers.inverse_depth, layers.albedo, layers.shine, layers.tag
     line, road, lines, roads, noise = ground.line, ground.road, ground.lines, ground.roads, ground.noise
-    texels, places, photo = atlas.texels, atlas.places, ground.tint.colour
+    texels, places, photo, height = atlas.texels, atlas.places, ground.tint.colour, view.centre[2]
     for row in range(view.height):
         y = (row + 0.5 - view.cy) / view.fy
         level = ground_level(view, y)
         for column in range(view.width):
             x = (column + 0.5 - view.cx) / view.fx
             dz = view.right[2] * x + view.down[2] * y + view.forward[2]
-            if dz >= -view.centre[2] / FAR_M or depth[row, column] * -view.centre[2] < dz:
+            if dz >= -height / FAR_M or depth[row, column] * -height < dz:
                 continue
-            z = -view.centre[2] / dz
+            z = -height / dz
             px = view.centre[0] + z * (view.right[0] * x + view.down[0] * y + view.forward[0])
             py = view.centre[1] + z * (view.right[1] * x + view.down[1] * y + view.forward[1])
-            coarse, middle, fine = patch(noise, px, py, 11.0), patch(noise, py, px, 47.0), patch(noise, py, px, 173.0)
-            material, shade = cover(line, road, lines, roads, ground.x, ground.y, ground.grassy, px, py,
-                                    coarse, middle, fine)  # fmt: skip
+            coarse = noise[int(py * 11.0) & NOISE_MASK, int(px * 11.0) & NOISE_MASK] / 255.0
+            middle = noise[int(px * 47.0) & NOISE_MASK, int(py * 47.0) & NOISE_MASK] / 255.0
+            fine = noise[int(px * 173.0) & NOISE_MASK, int(py * 173.0) & NOISE_MASK] / 255.0
+            ragged = (coarse - 0.5) * 0.3 + (middle - 0.5) * 0.22 + (fine - 0.5) * 0.22
+            to_road, to_plants, reach = FAR_M, FAR_M, 0.0
+            j, i = int((px - ground.x) / CELL_M), int((py - ground.y) / CELL_M)
+            if 0 <= i < line.shape[0] and 0 <= j < line.shape[1]:
+                k = road[i, j]
+                if k >= 0:
+                    to_road = away(roads[k, 0], roads[k, 1], roads[k, 2], roads[k, 3], roads[k, 4], px, py)
+                    to_road += ragged - roads[k, 5]
+                k = line[i, j]
+                if k >= 0:
+                    to_plants = away(lines[k, 0], lines[k, 1], lines[k, 2], lines[k, 3], lines[k, 4], px, py)
+                    reach = lines[k, 5]
+            material = cover(to_road, to_plants, reach, ragged, ground.grassy, coarse, middle, fine)
             start, side = places[material, level, 0], places[material, level, 1]
-            tx = int(math.floor(px * TEXTURES_PER_M * side)) & (side - 1)
-            ty = int(math.floor(py * TEXTURES_PER_M * side)) & (side - 1)
-            lay_pixel(albedo, row, column, texels, start + ty * side + tx, photo, ground.tint.x, ground.tint.y,
-                      ground.tint.per_m, px, py, fine)  # fmt: skip
+            tx, ty = int(px * TEXTURES_PER_M * side + HIGH), int(py * TEXTURES_PER_M * side + HIGH)
+            texel = start + (ty & (side - 1)) * side + (tx & (side - 1))
+            red, green, blue = float(texels[texel, 0]), float(texels[texel, 1]), float(texels[texel, 2])
+            if ground.tint.per_m > 0.0:
+                j = int((px - ground.tint.x) * ground.tint.per_m + fine - 0.5)
+                i = int((py - ground.tint.y) * ground.tint.per_m + fine - 0.5)
+                if 0 <= i < photo.shape[0] and 0 <= j < photo.shape[1]:
+                    detail = (red + green + blue) / 300.0
+                    red = tinted(red, photo[i, j, 0], detail)
+                    green, blue = tinted(green, photo[i, j, 1], detail), tinted(blue, photo[i, j, 2], detail)
+            albedo[row, column, 0], albedo[row, column, 1], albedo[row, column, 2] = int(red), int(green), int(blue)
             depth[row, column], tags[row, column] = 1.0 / z, material
             shine[row, column, 0] = upward(light, px, py)
-            shine[row, column, 1] = shade * (0.72 + 0.56 * coarse)
+            shine[row, column, 1] = (0.72 + 0.28 * min(to_plants, 1.0)) * (0.72 + 0.56 * coarse)
 
 
 @inlined
@@ -154,12 +182,6 @@ def ground_level(view: View, y: float) -> int:
     reach = -view.centre[2] / down if down < -1e-4 else 1e4
     across, along = reach / view.fx, reach * reach / (view.fx * max(view.centre[2], 0.2))
     return min(max(int(math.log2(max(across, along * 0.35) * TEXELS_PER_M + 1e-6) + 0.5), 0), 8)
-
-
-@inlined
-def patch(noise: Floats32, x: float, y: float, per_m: float) -> float:
-    """Value of the tileable noise, 0 to 1."""
-    return noise[int(y * per_m) & (NOISE_SIDE - 1), int(x * per_m) & (NOISE_SIDE - 1)]
 
 
 @inlined
@@ -173,41 +195,21 @@ def upward(light: Light, x: float, y: float) -> float:
 
 @inlined
 def cover(
-    line: NDArray[np.int16], road: NDArray[np.int16], lines: Floats, roads: Floats, x0: float, y0: float, grassy: float,
-    x: float, y: float, coarse: float, middle: float, fine: float,
-) -> tuple[int, float]:  # fmt: skip
-    """Material of the ground and a factor on its light, 0.72 to 1: darker under the plants."""
-    j, i = int((x - x0) / CELL_M), int((y - y0) / CELL_M)
-    if i < 0 or j < 0 or i >= line.shape[0] or j >= line.shape[1]:
-        return (GRASS if coarse * 0.6 + middle * 0.2 + fine * 0.2 < 0.35 + 0.4 * grassy else SOIL), 1.0
-    ragged = (coarse - 0.5) * 0.3 + (middle - 0.5) * 0.22 + (fine - 0.5) * 0.22
-    stretch, row = road[i, j], line[i, j]
-    if stretch >= 0 and away(roads, stretch, x, y) + ragged < roads[stretch, 5]:
-        return ROAD, 1.0
-    if row < 0:
-        return (GRASS if coarse * 0.6 + middle * 0.2 + fine * 0.2 < 0.35 + 0.4 * grassy else SOIL), 1.0
-    d = away(lines, row, x, y)
-    shade = 0.72 + 0.28 * min(d, 1.0)
-    if d + ragged < 0.34:
-        return SOIL, shade
-    track = abs(d - lines[row, 5] + 0.42) + (coarse - 0.5) * 0.3 + (fine - 0.5) * 0.2
+    to_road: float, to_plants: float, reach: float, ragged: float, grassy: float, coarse: float, middle: float,
+    fine: float,
+) -> int:  # fmt: skip
+    """Material of the ground at a distance from the road's edge and from a line of plants, m."""
+    if to_road < 0.0:
+        return ROAD
+    if to_plants + ragged < BARE_STRIP_M:
+        return SOIL
+    track = abs(to_plants - reach + 0.42) + (coarse - 0.5) * 0.3 + (fine - 0.5) * 0.2
     if track < 0.10 and middle * 0.6 + fine * 0.4 > 0.42:
-        return ROAD, shade
-    return (GRASS if coarse * 0.6 + fine * 0.4 < 0.25 + 0.5 * grassy else SOIL), shade
+        return ROAD
+    return GRASS if coarse * 0.6 + middle * 0.15 + fine * 0.25 < 0.28 + 0.45 * grassy else SOIL
 
 
 @inlined
-def lay_pixel(
-    albedo: Bytes, row: int, column: int, texels: Bytes, texel: int, photo: Bytes, x0: float, y0: float, per_m: float,
-    x: float, y: float, fine: float,
-) -> None:  # fmt: skip
-    """Colour of the ground: the texture's, drawn towards the orthophoto's with the texture's detail kept."""
-    j, i = int(math.floor((x - x0) * per_m + fine - 0.5)), int(math.floor((y - y0) * per_m + fine - 0.5))
-    if per_m > 0.0 and 0 <= i < photo.shape[0] and 0 <= j < photo.shape[1]:
-        detail = (float(texels[texel, 0]) + float(texels[texel, 1]) + float(texels[texel, 2])) / 300.0
-        for k in range(3):
-            own = (1.0 - TINT_SHARE) * texels[texel, k]
-            albedo[row, column, k] = int(min(own + TINT_SHARE * detail * photo[i, j, k], 255.0))
-    else:
-        for k in range(3):
-            albedo[row, column, k] = texels[texel, k]
+def tinted(own: float, photo: int, detail: float) -> float:
+    """A colour drawn towards the orthophoto's, with the texture's detail kept."""
+    return min((1.0 - TINT_SHARE) * own + TINT_SHARE * detail * photo, 255.0)

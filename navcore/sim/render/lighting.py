@@ -73,7 +73,8 @@ def daylight(light: LightParams) -> Lighting:
     if light.night:
         sun, through, ambient = np.zeros(3), 0.0, np.array((0.010, 0.011, 0.015))
     return Lighting(
-        source=(*vector(sun), 0.0), beam=(0.0, 0.0, 0.0), direct=vector(warm * 2.6 * through), ambient=vector(ambient),
+        source=(*vector(sun), 0.0), beam=(0.0, 0.0, 0.0), direct=vector(warm * 2.6 * through),
+        ambient=vector(ambient),
         haze=vector(np.array((0.60, 0.67, 0.74)) * (0.01 if light.night else 1.0)), haze_per_m=light.haze_per_m,
         exposure=light.exposure, gains=(light.red_gain, 1.0, light.blue_gain), noise=light.noise,
         shadows=not light.night and through > 0.05,
@@ -109,10 +110,10 @@ def build_tables(light: LightParams) -> Tables:
     )  # fmt: skip
 
 
-def ground_noise(seed: int) -> Floats32:
-    """Tileable noise (512, 512), 0 to 1."""
+def ground_noise(seed: int) -> NDArray[np.uint8]:
+    """Tileable noise (512, 512), 0 to 255."""
     field = smooth_noise(512, 512, 1.2, np.random.default_rng((seed, 23)))
-    return np.asarray(np.clip(0.5 + field * 0.18, 0.0, 1.0), dtype=np.float32)
+    return np.asarray(np.clip(0.5 + field * 0.18, 0.0, 1.0) * 255.0, dtype=np.uint8)
 
 
 def _linear(x: Floats | Floats32) -> Floats:

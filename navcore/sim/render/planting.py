@@ -152,7 +152,7 @@ def _shed_panels(shed: Shed | None) -> tuple[Floats, Floats]:
 def _panel(corners: Floats, shed: Shed) -> Floats:
     """Corners (4, 5) in `map` with texture coordinates, one texture per 4 m."""
     u = np.where(np.ptp(corners[:, 0]) > 1.0, corners[:, 0], corners[:, 1]) / 4.0 + 8.0
-    placed = _turned(corners, shed.yaw) + (shed.x, shed.y, 0.0)
+    placed = _turned(corners, shed.yaw) + np.array((shed.x, shed.y, 0.0))
     return np.column_stack((placed, u, corners[:, 2] / 4.0))
 
 

@@ -10,9 +10,10 @@ from numpy.typing import NDArray
 from navcore.sim.render.buffers import Bytes, Layers, View
 from navcore.sim.render.compiled import compiled, inlined
 from navcore.sim.render.lighting import WHITE, Lighting, Tables
-from navcore.sim.render.shadow import Shadow, sunlit
+from navcore.sim.render.shadow import Shadow, shadow_cell
 
 FIRST_LEAF, LAST_LEAF, TUFT, FIRST_GROUND = 1, 3, 4, 11  # Material
+UNKNOWN_SUN = 0.6
 Colour = tuple[float, float, float]
 
 
@@ -52,10 +53,12 @@ def shade(
                 elif s > 0.0 and lighting.shadows:
                     spot = ((row & 15) << 4) + (column & 15)
                     bias = 0.10 if leaf else (0.03 if material >= FIRST_GROUND else 0.05)
-                    share = sunlit(height, shear, middle, px, py, pz, bias, jitter[spot, 0], jitter[spot, 1])
-                    if not leaf:
-                        again = sunlit(height, shear, middle, px, py, pz, bias, jitter[spot, 2], jitter[spot, 3])
-                        share = 0.5 * (share + again)
+                    top = (pz + bias) * 1000.0
+                    cell = shadow_cell(shear, middle, px, py, pz, jitter[spot, 0], jitter[spot, 1])
+                    share = UNKNOWN_SUN if cell < 0 else (1.0 if height[cell] <= top else 0.0)
+                    if not leaf and cell >= 0:
+                        cell = shadow_cell(shear, middle, px, py, pz, jitter[spot, 2], jitter[spot, 3])
+                        share = 0.5 * share + (0.5 if cell < 0 or height[cell] <= top else 0.0)
                     s *= max(share, 0.10) if leaf or material == TUFT else share
                 sky_share = open_sky(material, pz, canopy)
                 r = linear[albedo[row, column, 0]] * k * (lighting.ambient[0] * sky_share + lighting.direct[0] * s)

@@ -1,4 +1,4 @@
-"""Sun shadows: for each spot of the ground the highest thing between it and the sun, drawn tile by tile around the robot.
+"""Sun shadows: per spot of ground the highest thing between it and the sun, drawn in tiles around the robot.
 
 A point (x, y, z) throws its shadow on (x - kx z, y - ky z) with (kx, ky) = sun.xy / sun.z. All points of one sun ray
 share that spot, so the highest of them shades the others.
@@ -33,7 +33,7 @@ Places = NDArray[np.int64]
 
 
 class Shadow(NamedTuple):
-    """Heights in mm (2048, 2048), wrapping around every 64 m of ground; valid within 22 m of `centre`."""
+    """Heights in mm (2048 * 2048,), rows of y, wrapping around every 64 m; valid within 22 m of `centre`."""
 
     height: Heights
     shear: Pair
@@ -59,7 +59,7 @@ class ShadowMap:
         for tile in _tiles(x, y, RADIUS_M + 0.6 * TILE_M):
             if self._draw(tile):
                 break
-        return Shadow(self._height, (float(self._shear[0]), float(self._shear[1])), (x, y))
+        return Shadow(self._height.reshape(-1), (float(self._shear[0]), float(self._shear[1])), (x, y))
 
     def _draw(self, tile: tuple[int, int]) -> bool:
         slot = (tile[0] % TILES, tile[1] % TILES)
@@ -209,15 +209,13 @@ def fill_shadow(screen: Floats, plane: Floats, material: int, texels: Bytes, pla
 
 
 @inlined
-def sunlit(
-    height: Heights, shear: Pair, centre: Pair, x: float, y: float, z: float, bias: float, jitter_x: float,
-    jitter_y: float,
-) -> float:  # fmt: skip
-    """1 where the sun reaches a point, 0 in shadow; half light where nothing is known."""
+def shadow_cell(
+    shear: Pair, centre: Pair, x: float, y: float, z: float, jitter_x: float, jitter_y: float
+) -> int:  # fmt: skip
+    """Where the flattened map knows about the sun ray through a point; -1 where it does not."""
     gx, gy = x - shear[0] * z, y - shear[1] * z
-    dx, dy = gx - centre[0], gy - centre[1]
-    if abs(dx) > RADIUS_M or abs(dy) > RADIUS_M:
-        return 0.6
-    column = int(math.floor(gx * PER_M + jitter_x)) & (SIDE_PX - 1)
-    row = int(math.floor(gy * PER_M + jitter_y)) & (SIDE_PX - 1)
-    return 1.0 if height[row, column] <= (z + bias) * 1000.0 else 0.0
+    if abs(gx - centre[0]) > RADIUS_M or abs(gy - centre[1]) > RADIUS_M:
+        return -1
+    column = math.floor(gx * PER_M + jitter_x) & (SIDE_PX - 1)
+    row = math.floor(gy * PER_M + jitter_y) & (SIDE_PX - 1)
+    return row * SIDE_PX + column

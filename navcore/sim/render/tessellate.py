@@ -1,4 +1,4 @@
-"""Turn the chunks in sight into a queue of quadrilaterals, near ones first, as fine as their size on the screen asks."""
+"""Turn the chunks in sight into a queue of quadrilaterals, near ones first, as fine as the screen asks."""
 
 from __future__ import annotations
 
@@ -188,8 +188,8 @@ def put_end(corners: Floats, n: int, i: int, x: float, y: float, z: float, u: fl
 
 @compiled
 def add_card(
-    view: View, light: Light, cards: Floats, i: int, z: float, scale: float, corners: Floats, look: Looks, tint: Floats,
-    n: int,
+    view: View, light: Light, cards: Floats, i: int, z: float, scale: float, corners: Floats, look: Looks,
+    tint: Floats, n: int,
 ) -> int:  # fmt: skip
     """A bunch of leaves: a rectangle cut out by alpha. Leaves let part of the light through."""
     direct = abs(cards[i, 9] * light[0] + cards[i, 10] * light[1] + cards[i, 11] * light[2]) * (1.0 - light[3])

@@ -18,7 +18,9 @@ def day_sky(rng: np.random.Generator, cloud: float, sun_azimuth: float, sun_elev
     low_sun = math.exp(-6.0 * max(sun_elevation, 0.0))
     horizon = rgb(204, 215, 226) * (1 - low_sun) + rgb(238, 206, 168) * low_sun
     shape = np.ones((HEIGHT_PX, WIDTH_PX), dtype=np.float32)
-    sky = blend(horizon * shape[..., None], rgb(92, 136, 192), np.asarray(np.sin(elevation) ** 0.55 * shape, np.float32))
+    sky = blend(
+        horizon * shape[..., None], rgb(92, 136, 192), np.asarray(np.sin(elevation) ** 0.55 * shape, np.float32)
+    )
     noise = smooth_noise(HEIGHT_PX, WIDTH_PX, 1.75, rng, (2.2, 1.0)) - 0.2
     white = rgb(236, 238, 240) - (ramp(noise, 0.8, 2.6) * 46.0)[..., None]
     sky = blend(sky, white, ramp(noise + (cloud - 0.5) * 4.0, 0.0, 1.6) * 0.92)

@@ -90,11 +90,11 @@ def grass(rng: np.random.Generator, greenness: float) -> Texels:
     """Mown grass seen from above, 0 dry to 1 lush; (512, 512, 4)."""
     s = 512
     clouds = smooth_noise(s, s, 1.3, rng)
-    image = np.ascontiguousarray(rgb(74, 72, 46) + (clouds * 9.0)[..., None], dtype=np.float32)
+    image = np.ascontiguousarray(rgb(92, 88, 58) + (clouds * 9.0)[..., None], dtype=np.float32)
     blades = 9000
     for i in range(blades):
         lush = rng.random() < greenness * 0.9 + 0.05
-        colour = rgb(96, 112, 58) if lush else rgb(158, 144, 96)
+        colour = rgb(112, 128, 70) if lush else rgb(172, 158, 112)
         shade = (0.5 + 0.62 * i / blades) * rng.uniform(0.78, 1.22)
         _stroke(image, rng, colour * shade, 8.0, rng.normal(math.pi / 2, 0.9))
     bare = ramp(smooth_noise(s, s, 1.0, rng), 1.1, 2.2)
