@@ -900,6 +900,7 @@ export interface components {
             "nav/plan": components["schemas"]["MissionPlan"] | null;
             "nav/status": components["schemas"]["NavStatus"] | null;
             "nav/switch": components["schemas"]["ModeSwitch"] | null;
+            "recorder/status": components["schemas"]["RecorderStatus"] | null;
         };
         /**
          * LogFormat
@@ -1242,7 +1243,7 @@ export interface components {
         };
         /**
          * Preview
-         * @description The plan that would be driven, or every reason why there is none. Lengths in m, times in s.
+         * @description The plan as far as it can be drawn, and every reason why it must not be driven; empty when it may. m and s.
          */
         Preview: {
             /** Duration S */
@@ -1261,13 +1262,32 @@ export interface components {
             mission: components["schemas"]["Mission"];
         };
         /**
+         * RecorderStatus
+         * @description Whether the run is being written down. Driving goes on without.
+         *
+         *     Attributes:
+         *         problem: why nothing is written, empty when all is well or nothing was asked for.
+         */
+        RecorderStatus: {
+            /** Problem */
+            problem: string;
+            /** Recording */
+            recording: boolean;
+            /** Run Id */
+            run_id: string | null;
+            /** Size Bytes */
+            size_bytes: number;
+            /** Stamp Ns */
+            stamp_ns: number;
+        };
+        /**
          * Robot
          * @description What the station knows of the robot.
          *
          *     Attributes:
          *         connected: the navigator was heard of within the last second.
          *         simulated: the robot is the simulator.
-         *         site_id: the farm that the simulated robot stands on, or that of the newest run.
+         *         site_id: the farm that the robot is set up for, None before the first or without a supervisor.
          *         state, run_id: from the navigator's newest status; None before the first.
          *         scene: there is a 3D view at `/scene/`.
          *         operators: browsers with a live heartbeat.
@@ -1290,7 +1310,7 @@ export interface components {
         };
         /**
          * RobotSite
-         * @description Puts the simulated robot on a farm.
+         * @description Sets the robot up for a farm; the simulated one is put there.
          */
         RobotSite: {
             /**
@@ -1598,13 +1618,11 @@ export interface components {
         RunState: "idle" | "starting" | "driving" | "holding" | "paused" | "stopped" | "finished";
         /**
          * RunTrack
-         * @description The run in columns of equal length, about 10 Hz. Pose in `map`; `t_s` counts from the log's first message.
+         * @description The run in columns of equal length, about 10 Hz. Pose in `map`; `t_s` counts from the log's first status.
          */
         RunTrack: {
             /** Camera T S */
             camera_t_s: number[];
-            /** Gnss Std */
-            gnss_std: (number | null)[];
             /** Heading Error */
             heading_error: (number | null)[];
             /** Lateral Error */
@@ -1613,6 +1631,8 @@ export interface components {
             mode: components["schemas"]["NavMode"][];
             /** Omega */
             omega: number[];
+            /** Position Std */
+            position_std: (number | null)[];
             /** Progress */
             progress: number[];
             /** Reason */

@@ -8,10 +8,12 @@ import css from "./shell.module.css";
 /** What the robot does, or why nothing is known of it. */
 export function StatusPill() {
   const [tone, words] = usePill();
+  const simulated = useQuery(robotQuery).data?.simulated;
   return (
     <span className={css.pill} role="status">
       <span className={css.dot} data-tone={tone} />
       {words}
+      {simulated && <small>simulator</small>}
     </span>
   );
 }
@@ -20,8 +22,7 @@ function usePill(): [Tone, string] {
   const link = useLink();
   const fresh = useFresh("nav/status");
   const status = useTopic("nav/status");
-  const simulated = useQuery(robotQuery).data?.simulated;
   if (link !== "open") return ["bad", "No link to the station"];
   if (!fresh || !status) return ["bad", "No news from the robot"];
-  return [STATE_TONES[status.state], `${STATE_WORDS[status.state]}${simulated ? " · simulator" : ""}`];
+  return [STATE_TONES[status.state], STATE_WORDS[status.state]];
 }

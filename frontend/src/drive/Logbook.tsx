@@ -9,11 +9,11 @@ import { useHistorySnapshot } from "./useHistorySnapshot";
 /** The last minutes as plots, or the switches of the run so far. */
 export function Logbook() {
   const [tab, setTab] = useState("plots");
-  const { samples, switches } = useHistorySnapshot();
+  const { samples, switches, startNs } = useHistorySnapshot();
   return (
     <section className={css.logbook}>
       <SegmentedControl fullWidth value={tab} onChange={setTab} data={[{ value: "plots", label: "Last minutes" }, { value: "switches", label: `Switches (${switches.length})` }]} />
-      {tab === "plots" ? <LivePlots samples={samples} /> : <SwitchList switches={switches} start={switches[0]?.stamp_ns ?? 0} />}
+      {tab === "plots" ? <LivePlots samples={samples} /> : <SwitchList switches={switches} timeOf={(item) => (item.stamp_ns - startNs) / 1e9} />}
     </section>
   );
 }

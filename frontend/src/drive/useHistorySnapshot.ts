@@ -8,6 +8,7 @@ const PACE_MS = 500;
 interface Snapshot {
   samples: Samples;
   switches: RunHistory["switches"];
+  startNs: number;
 }
 
 /** The page's memory of the run, copied twice a second for React. */
@@ -21,10 +22,11 @@ export function useHistorySnapshot(): Snapshot {
   return snapshot;
 }
 
-function copy({ samples, switches }: RunHistory): Snapshot {
+function copy({ samples, switches, startNs }: RunHistory): Snapshot {
   const start = samples.t[0] ?? 0;
   return {
     samples: { t: samples.t.map((t) => t - start), lateral: [...samples.lateral], v: [...samples.v], mode: [...samples.mode] },
     switches,
+    startNs,
   };
 }

@@ -20,12 +20,14 @@ export class RunHistory {
   trail: Point[] = [];
   samples: Samples = noSamples();
   switches: ModeSwitch[] = [];
+  /** Stamp of the first status seen of this run. */
+  startNs = 0;
   /** The run whose recorded start has been put in front. */
   seeded: string | null = null;
   private lastSample = -Infinity;
 
   add(status: NavStatus): void {
-    if (status.run_id !== this.runId) this.begin(status.run_id);
+    if (status.run_id !== this.runId) this.begin(status);
     if (status.run_id === null) return;
     if (status.pose) this.extendTrail([status.pose.x, status.pose.y]);
     if (status.stamp_ns - this.lastSample >= SAMPLE_NS) this.addSample(status);
@@ -44,8 +46,9 @@ export class RunHistory {
     this.switches = [...track.switches.filter(({ stamp_ns }) => !known.has(stamp_ns)), ...this.switches];
   }
 
-  private begin(runId: string | null): void {
-    this.runId = runId;
+  private begin({ run_id, stamp_ns }: NavStatus): void {
+    this.runId = run_id;
+    this.startNs = stamp_ns;
     this.trail = [];
     this.samples = noSamples();
     this.switches = [];

@@ -1,29 +1,40 @@
 import type { ModeSwitch } from "../api/types";
-import { centimetres, metres, percent } from "../ui/format";
+import { centimetres, clock, metres, percent } from "../ui/format";
 import { MODE_COLORS, MODE_WORDS } from "../ui/words";
 import css from "./switches.module.css";
 
+interface Props {
+  switches: readonly ModeSwitch[];
+  /** Seconds since the run began; undefined where that is not known. */
+  timeOf: (item: ModeSwitch) => number | undefined;
+  onPick?: (t: number) => void;
+}
+
 /** Every change of the source driven on, with the numbers that caused it. */
-export function SwitchList({ switches, start, onPick }: { switches: readonly ModeSwitch[]; start: number; onPick?: (item: ModeSwitch) => void }) {
+export function SwitchList({ switches, timeOf, onPick }: Props) {
   if (switches.length === 0) return <p>No switch yet. Each change between GNSS and camera will be listed here with its reason.</p>;
   return (
     <ol className={css.list}>
       {switches.map((item) => (
-        <li key={item.stamp_ns} style={{ "--mode": MODE_COLORS[item.after] } as React.CSSProperties}>
-          <button type="button" disabled={!onPick} onClick={() => onPick?.(item)}>
-            <b>
-              {clock((item.stamp_ns - start) / 1e9)} {MODE_WORDS[item.after]}
-            </b>
-            <span>{item.reason}</span>
-            <small>{numbers(item)}</small>
-          </button>
-        </li>
+        <Switch key={item.stamp_ns} item={item} t={timeOf(item)} onPick={onPick} />
       ))}
     </ol>
   );
 }
 
-const clock = (t: number) => `${Math.floor(t / 60)}:${String(Math.floor(t % 60)).padStart(2, "0")}`;
+function Switch({ item, t, onPick }: { item: ModeSwitch; t: number | undefined; onPick: Props["onPick"] }) {
+  return (
+    <li style={{ "--mode": MODE_COLORS[item.after] } as React.CSSProperties}>
+      <button type="button" disabled={!onPick || t === undefined} onClick={() => t !== undefined && onPick?.(t)}>
+        <b>
+          {t === undefined ? "" : clock(t)} {MODE_WORDS[item.after]}
+        </b>
+        <span>{item.reason}</span>
+        <small>{numbers(item)}</small>
+      </button>
+    </li>
+  );
+}
 
 function numbers({ gnss_std, row_quality, row_offset, end_distance }: ModeSwitch): string {
   const parts = [

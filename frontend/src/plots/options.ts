@@ -2,6 +2,7 @@ import type { RefObject } from "react";
 import type uPlot from "uplot";
 
 import type { NavMode } from "../api/types";
+import { clock } from "../ui/format";
 import { MODE_COLORS } from "../ui/words";
 import { bands } from "./bands";
 
@@ -41,8 +42,6 @@ export function plotOptions({ color, dark, width, height, marks }: Wanted): uPlo
     },
   };
 }
-
-const clock = (t: number) => `${Math.floor(t / 60)}:${String(Math.floor(t % 60)).padStart(2, "0")}`;
 
 function drawBands(plot: uPlot, mode: NavMode[]): void {
   const t = plot.data[0] as number[];

@@ -2,11 +2,12 @@ import { IconAlertTriangle, IconInfoCircle } from "@tabler/icons-react";
 
 import css from "./ui.module.css";
 
-/** Every reason at once. With `onPick`, a reason can be pressed to be shown where it is. */
-export function Reasons({ reasons, tone = "bad", onPick }: {
+/** Every reason at once. A reason that can be picked is shown where it is when pressed. */
+export function Reasons({ reasons, tone = "bad", onPick, canPick }: {
   reasons: readonly string[];
   tone?: "bad" | "warn" | "quiet";
   onPick?: (reason: string) => void;
+  canPick?: (reason: string) => boolean;
 }) {
   if (reasons.length === 0) return null;
   const Glyph = tone === "quiet" ? IconInfoCircle : IconAlertTriangle;
@@ -16,7 +17,7 @@ export function Reasons({ reasons, tone = "bad", onPick }: {
         {reasons.map((reason) => (
           <li key={reason}>
             <Glyph size={20} aria-hidden />
-            {onPick ? (
+            {onPick && canPick?.(reason) ? (
               <button type="button" className={css.reasonButton} onClick={() => onPick(reason)}>
                 {reason}
               </button>

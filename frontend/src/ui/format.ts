@@ -36,6 +36,12 @@ export function duration(value: Maybe): string {
   return m > 0 ? `${m} min ${two(s)} s` : `${s} s`;
 }
 
+/** 4:05, as a place in a run. */
+export function clock(t: number): string {
+  const whole = Math.max(0, Math.floor(t));
+  return `${Math.floor(whole / 60)}:${String(whole % 60).padStart(2, "0")}`;
+}
+
 export function bytes(value: Maybe): string {
   if (!known(value)) return NONE;
   const [unit, size] = value >= 1e9 ? ["GB", 1e9] : value >= 1e6 ? ["MB", 1e6] : ["kB", 1e3];

@@ -1,0 +1,77 @@
+import { SegmentedControl } from "@mantine/core";
+import { useCallback, useState } from "react";
+
+import type { Point, SiteDocument } from "../api/types";
+import { FitTo } from "../map/FitTo";
+import { MapView } from "../map/MapView";
+import { OrthophotoLayer } from "../map/OrthophotoLayer";
+import { firstExtent } from "../map/fit";
+import type { ItemRef } from "../map/siteFeatures";
+import { useSiteFrame } from "../map/useSiteFrame";
+import { EditLayer } from "./editing/EditLayer";
+import { Toolbar } from "./editing/Toolbar";
+import { reshape } from "./editing/edits";
+import { drawn } from "./editing/drawn";
+import type { Tool } from "./editing/tools";
+import { useEditKeys } from "./editing/useEditKeys";
+import { FarmPanel } from "./farm/FarmPanel";
+import { SaveNotice } from "./farm/SaveNotice";
+import { SiteHeader } from "./farm/SiteHeader";
+import { MissionLayer } from "./mission/MissionLayer";
+import { MissionPanel } from "./mission/MissionPanel";
+import { useMissionDraft } from "./mission/useMissionDraft";
+import css from "./plan.module.css";
+import { useSiteEditor } from "./useSiteEditor";
+
+type Tab = "farm" | "missions";
+
+const TABS: { value: Tab; label: string }[] = [
+  { value: "farm", label: "Farm" },
+  { value: "missions", label: "Missions" },
+];
+
+/** One site: drawn on the map, and the missions through it. */
+export function Workshop({ document, onReload }: { document: SiteDocument; onReload: () => void }) {
+  const frame = useSiteFrame(document.site.datum);
+  const editing = useSiteEditor(document);
+  const [tab, setTab] = useState<Tab>(document.site.rows.length > 0 ? "missions" : "farm");
+  const [tool, setTool] = useState<Tool>("select");
+  const [selected, setSelected] = useState<ItemRef | null>(null);
+  const draft = useMissionDraft(document);
+  const { site, commit } = editing;
+  const extent = useCallback(() => firstExtent(site, document.orthophoto, frame), [site, document.orthophoto, frame]);
+  const onDrawn = (with_: Tool, points: Point[]) => {
+    const added = drawn(site, with_, points);
+    setTool("select");
+    if (!added) return;
+    commit(added.site);
+    setSelected(added.ref);
+  };
+  useEditKeys({ editing, selected: tab === "farm" ? selected : null, onSelect: setSelected, onTool: setTool });
+  return (
+    <div className={css.page}>
+      <MapView className={css.map}>
+        {document.orthophoto && <OrthophotoLayer siteId={document.id} orthophoto={document.orthophoto} />}
+        {tab === "farm" ? (
+          <>
+            <EditLayer site={site} frame={frame} tool={tool} selected={selected} onSelect={setSelected} onDrawn={onDrawn} onReshaped={(ref, points) => commit(reshape(site, ref, points))} onCancel={() => setTool("select")} />
+            <Toolbar tool={tool} onTool={setTool} onUndo={editing.undo} onRedo={editing.redo} />
+          </>
+        ) : (
+          <MissionLayer site={site} frame={frame} draft={draft} />
+        )}
+        <FitTo extent={extent} subject={document.id} />
+      </MapView>
+      <aside className={css.side}>
+        <SiteHeader document={document} editing={editing} />
+        <SaveNotice editing={editing} siteId={document.id} onReload={onReload} />
+        <SegmentedControl fullWidth size="lg" value={tab} onChange={(value) => setTab(value as Tab)} data={TABS} />
+        {tab === "farm" ? (
+          <FarmPanel document={document} editing={editing} selected={selected} onSelect={setSelected} />
+        ) : (
+          <MissionPanel document={document} site={site} draft={draft} />
+        )}
+      </aside>
+    </div>
+  );
+}

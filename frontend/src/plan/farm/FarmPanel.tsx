@@ -1,0 +1,71 @@
+import { TextInput } from "@mantine/core";
+
+import type { SiteDocument, SiteMap } from "../../api/types";
+import { type ItemRef, WAREHOUSE, sameItem } from "../../map/siteFeatures";
+import { distance, length } from "../../geo/measure";
+import { Card } from "../../ui/Card";
+import { metres } from "../../ui/format";
+import { PhotoButton } from "../imports/ImportButtons";
+import css from "../plan.module.css";
+import type { SiteEditing } from "../useSiteEditor";
+import { ItemPanel } from "./ItemPanel";
+import { nextStep } from "./nextStep";
+
+interface Props {
+  document: SiteDocument;
+  editing: SiteEditing;
+  selected: ItemRef | null;
+  onSelect: (ref: ItemRef | null) => void;
+}
+
+export function FarmPanel({ document, editing, selected, onSelect }: Props) {
+  const { site, commit } = editing;
+  const step = nextStep(site);
+  return (
+    <div className={css.stack}>
+      {selected && <ItemPanel site={site} selected={selected} onCommit={commit} onSelect={onSelect} />}
+      {step && <Card title="Next step">{step}</Card>}
+      <Card title="This farm">
+        <div className={css.stack}>
+          <TextInput label="Name" value={site.name} maxLength={100} onChange={(event) => commit({ ...site, name: event.currentTarget.value })} />
+          {document.orthophoto ? (
+            <p className={css.quiet}>
+              Picture: {document.orthophoto.file_name}, {document.orthophoto.crs}, {Math.round(document.orthophoto.resolution * 100)} cm per pixel
+            </p>
+          ) : (
+            <PhotoButton path={`/api/sites/${document.id}/orthophoto`} word="Add an orthophoto" />
+          )}
+        </div>
+      </Card>
+      <Card title="Drawn">
+        <Items site={site} selected={selected} onSelect={onSelect} />
+      </Card>
+    </div>
+  );
+}
+
+function Items({ site, selected, onSelect }: { site: SiteMap; selected: ItemRef | null; onSelect: (ref: ItemRef) => void }) {
+  const items = listed(site);
+  if (items.length === 0) return <p className={css.quiet}>Nothing yet.</p>;
+  return (
+    <ul className={css.list}>
+      {items.map(({ ref, name, note }) => (
+        <li key={`${ref.kind}:${ref.id}`}>
+          <button type="button" className={css.item} aria-pressed={sameItem(ref, selected)} onClick={() => onSelect(ref)}>
+            {name}
+            <small>{note}</small>
+          </button>
+        </li>
+      ))}
+    </ul>
+  );
+}
+
+function listed(site: SiteMap): { ref: ItemRef; name: string; note: string }[] {
+  return [
+    ...(site.warehouse ? [{ ref: WAREHOUSE, name: site.warehouse.name, note: "warehouse" }] : []),
+    ...site.lanes.map((lane) => ({ ref: { kind: "lane" as const, id: lane.id }, name: lane.name || lane.id, note: `lane, ${metres(length(lane.points))}` })),
+    ...site.rows.map((row) => ({ ref: { kind: "row" as const, id: row.id }, name: row.name || row.id, note: `row, ${metres(distance(row.start, row.end))}` })),
+    ...site.zones.map((zone) => ({ ref: { kind: "zone" as const, id: zone.id }, name: zone.name || zone.id, note: zone.kind.replace("_", "-") })),
+  ];
+}

@@ -1,0 +1,55 @@
+import { useMutation, useQuery, useQueryClient } from "@tanstack/react-query";
+import { useState } from "react";
+
+import { post, put } from "../../api/client";
+import { previewQuery } from "../../api/queries";
+import type { Mission, MissionDocument, Point, RowExit, SiteDocument } from "../../api/types";
+import { addVisit } from "./missionEdits";
+
+interface Draft {
+  /** Null until it was saved for the first time. */
+  stored: MissionDocument | null;
+  mission: Mission;
+}
+
+/** The mission being made: from one press on a row, or an opened one; previewed by the code that drives. */
+export function useMissionDraft(document: SiteDocument) {
+  const client = useQueryClient();
+  const [draft, setDraft] = useState<Draft | null>(null);
+  const [exit, setExit] = useState<RowExit>("reverse");
+  const [place, setPlace] = useState<Point | null>(null);
+  const preview = useQuery(previewQuery(document.id, draft?.mission ?? null, document.version));
+  const edit = (mission: Mission) => setDraft((before) => before && { ...before, mission });
+  const forRow = useMutation({
+    mutationFn: (row_id: string) => post<Mission>(`/api/sites/${document.id}/missions/for-row`, { row_id, exit }),
+    onSuccess: (mission) => setDraft({ stored: null, mission }),
+  });
+  const save = useMutation({
+    mutationFn: ({ stored, mission }: Draft) =>
+      stored
+        ? put<MissionDocument>(`/api/missions/${stored.id}`, { version: stored.version, mission })
+        : post<MissionDocument>(`/api/sites/${document.id}/missions`, { mission }),
+    onSuccess: (stored) => {
+      setDraft({ stored, mission: stored.mission });
+      void client.invalidateQueries({ queryKey: ["missions"] });
+    },
+  });
+  return {
+    draft,
+    exit,
+    setExit,
+    /** A spot to be shown on the map. */
+    place,
+    setPlace,
+    preview: draft ? preview : null,
+    edit,
+    save,
+    making: forRow.isPending,
+    open: (stored: MissionDocument) => setDraft({ stored, mission: stored.mission }),
+    close: () => setDraft(null),
+    pressRow: (row_id: string) => (draft ? edit(addVisit(draft.mission, row_id)) : forRow.mutate(row_id)),
+    unsaved: draft !== null && draft.mission !== draft.stored?.mission,
+  };
+}
+
+export type MissionDraft = ReturnType<typeof useMissionDraft>;

@@ -1,0 +1,53 @@
+import { Button } from "@mantine/core";
+import { IconArrowLeft, IconDownload } from "@tabler/icons-react";
+import { Link } from "wouter";
+
+import type { RunDetail } from "../api/types";
+import { Badge } from "../ui/Badge";
+import { bytes, centimetres, duration, moment, percent, way } from "../ui/format";
+import { OUTCOME_TONES, OUTCOME_WORDS } from "../ui/words";
+import { Figure } from "./RunsPage";
+import css from "./runs.module.css";
+
+const FORMATS = ["mcap", "csv", "geojson", "gpx"] as const;
+
+/** What it was, how it ended, and its files. */
+export function RunHeader({ run }: { run: RunDetail }) {
+  return (
+    <header className={css.header}>
+      <Button component={Link} href="/runs" variant="default" leftSection={<IconArrowLeft size={20} />}>
+        Runs
+      </Button>
+      <div className={css.title}>
+        <h1>{run.mission_name}</h1>
+        <span>
+          {run.site_name} · {moment(run.started)}
+        </span>
+        {run.reason && <span>{run.reason}</span>}
+      </div>
+      <Badge tone={OUTCOME_TONES[run.outcome]}>{OUTCOME_WORDS[run.outcome]}</Badge>
+      <dl className={css.numbers}>
+        <Figure name="Duration" value={duration(run.duration_s)} />
+        <Figure name="Driven" value={way(run.distance_m)} />
+        <Figure name="Done" value={percent(run.progress)} />
+        <Figure name="Mean off line" value={centimetres(run.mean_lateral_error)} />
+        <Figure name="Largest" value={centimetres(run.max_lateral_error)} />
+        <Figure name="Switches" value={String(run.mode_switches)} />
+      </dl>
+      <Downloads run={run} />
+    </header>
+  );
+}
+
+function Downloads({ run }: { run: RunDetail }) {
+  if (run.log_bytes === null) return <span>No log on disk</span>;
+  return (
+    <div className={css.downloads}>
+      {FORMATS.map((format) => (
+        <Button key={format} component="a" href={`/api/runs/${run.id}/download?format=${format}`} download variant="default" leftSection={<IconDownload size={18} />}>
+          {format === "mcap" ? `MCAP, ${bytes(run.log_bytes)}` : format === "geojson" ? "GeoJSON" : format.toUpperCase()}
+        </Button>
+      ))}
+    </div>
+  );
+}
