@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import time
 from collections.abc import Coroutine
+from typing import TypeVar
 
 from pydantic import ValidationError
 from starlette.websockets import WebSocket, WebSocketDisconnect, WebSocketState
@@ -13,6 +14,7 @@ from backend.live import Hub, LiveMessage, Outbox
 from backend.logins import Login, LoginBook
 from backend.schemas import Heartbeat
 
+T = TypeVar("T")
 SLOWEST_SEND_S = 5.0
 LOGIN_CHECK_S = 0.5
 MOST_MESSAGES_PER_S = 50
@@ -29,15 +31,15 @@ async def serve(websocket: WebSocket, hub: Hub, logins: LoginBook) -> None:
         await websocket.close(TRY_LATER, "Too many browsers watch this robot.")
         return
     try:
-        code = await _first_of(_send(websocket, outbox), _listen(websocket, outbox), _watch(login, logins))
+        code = await first_of(_send(websocket, outbox), _listen(websocket, outbox), _watch(login, logins))
     finally:
         hub.leave(outbox)
     if websocket.application_state is WebSocketState.CONNECTED and code is not None:
         await _close(websocket, code)
 
 
-async def _first_of(*ways: Coroutine[None, None, int | None]) -> int | None:
-    """Run all, end with the first that ends; its result is the close code, None if the browser left."""
+async def first_of(*ways: Coroutine[None, None, T]) -> T:
+    """Run all until the first of them ends, and give its result."""
     tasks = [asyncio.create_task(way) for way in ways]
     try:
         done, _ = await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)

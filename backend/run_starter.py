@@ -7,7 +7,7 @@ import shutil
 from contextlib import suppress
 from threading import Lock
 
-from backend import missions, planner, sites
+from backend import missions, sites
 from backend.audit import AuditBook
 from backend.database import Database
 from backend.errors import RefusedError
@@ -20,6 +20,7 @@ from backend.schemas import OperatorAction, RunDocument
 from backend.settings import Settings
 from navcore.errors import MissionError, TransportError
 from navcore.messages import LinkLossPolicy, Request, RequestKind
+from navcore.planning.mission_planner import plan_mission
 from navcore.transport.codec import encode
 from navcore.vehicle import PROFILES
 
@@ -71,7 +72,7 @@ class RunStarter:
             mission, site = missions.mission(mission_row), sites.site_map(site_row)
         reasons = [*self._disk_reasons(), *self._robot.start_reasons(site_row.id, site_row.name)]
         try:
-            plan = planner.plan(site, mission, PROFILES[self._settings.vehicle])
+            plan = plan_mission(site, mission, PROFILES[self._settings.vehicle])
         except MissionError as error:
             raise RefusedError(CANNOT_START, [*reasons, *error.reasons]) from error
         if reasons:

@@ -160,7 +160,7 @@ class PreviewRequest(Received):
 
 
 class Preview(Sent):
-    """The plan that would be driven, or every reason why there is none. Lengths in m, times in s."""
+    """The plan as far as it can be drawn, and every reason why it must not be driven; empty when it may. m and s."""
 
     plan: MissionPlan | None
     problems: list[str]

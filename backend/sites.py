@@ -32,7 +32,7 @@ class SiteStore:
         """Every site, by name."""
         counts = select(Mission.site_id, func.count()).group_by(Mission.site_id)
         with self._database.read() as session:
-            missions: dict[str, int] = dict(session.execute(counts).tuples())
+            missions: dict[str, int] = {row[0]: row[1] for row in session.execute(counts)}
             sites = session.scalars(select(Site).order_by(Site.name, Site.id)).all()
         return [_summary(site, missions.get(site.id, 0)) for site in sites]
 

@@ -17,6 +17,7 @@ from backend.schemas import (
     RowMissionRequest,
 )
 from navcore.maps.mission import Mission
+from navcore.planning.mission_planner import mission_for_row
 
 router = APIRouter(prefix="/api", tags=["missions"], responses=ERRORS)
 GeoJson = Annotated[dict[str, Any], Body(description="GeoJSON FeatureCollection")]
@@ -37,7 +38,7 @@ def create_mission(station: TheStation, site_id: PathId, body: MissionCreate) ->
 @router.post("/sites/{site_id}/missions/for-row")
 def row_mission(station: TheStation, site_id: PathId, body: RowMissionRequest) -> Mission:
     """The whole mission to a row and back along the lanes; not saved."""
-    return planner.row_mission(station.sites.get(site_id).site, body.row_id, body.exit)
+    return mission_for_row(station.sites.get(site_id).site, body.row_id, body.exit)
 
 
 @router.post("/sites/{site_id}/missions/import", status_code=201)

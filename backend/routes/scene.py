@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from urllib.parse import quote
+
 from fastapi import APIRouter, Request, Response, WebSocket
 
 from backend import scene_proxy
@@ -13,7 +15,8 @@ router = APIRouter(tags=["scene"], include_in_schema=False)
 @router.get("/scene/{path:path}")
 async def scene_files(station: TheStation, login: TheLogin, request: Request, path: str) -> Response:
     """The viewer's files, streamed from the loopback server."""
-    return await scene_proxy.fetch(request, station.settings.scene_port, path)
+    encodings = request.headers.get("accept-encoding", "identity")
+    return await scene_proxy.fetch(station.settings.scene_port, quote(path), encodings)
 
 
 @router.websocket("/scene")
