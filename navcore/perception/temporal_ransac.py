@@ -23,7 +23,7 @@ class SlopeCheckParams:
     """
 
     corridor_width: float = 3.0
-    tolerance_deg: float = 12.0
+    tolerance_deg: float = 7.0
 
 
 def reference_lines(camera: PinholeCamera, corridor_width: float) -> tuple[Line2, Line2]:

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import torch
 from torch import Tensor
-from torch.optim.swa_utils import AveragedModel, get_ema_multi_avg_fn
+from torch.optim.swa_utils import AveragedModel
 
 from navcore.errors import ModelError
 from navcore.training.augment import AugmentParams, augment
@@ -59,8 +59,7 @@ class Trainer:
         torch.set_num_threads(params.threads)
         self._folder, self._training, self._validation, self._params = folder, training, validation, params
         self._net = FootNet(params.net).to(memory_format=torch.channels_last)  # type: ignore[call-overload]
-        averaging = get_ema_multi_avg_fn(params.average)  # type: ignore[no-untyped-call]
-        self._mean = AveragedModel(self._net, multi_avg_fn=averaging, use_buffers=True)
+        self._mean = AveragedModel(self._net, avg_fn=running_mean(params.average), use_buffers=True)
         self._optimizer = torch.optim.AdamW(
             self._net.parameters(), lr=params.learning_rate, weight_decay=params.weight_decay
         )
@@ -119,7 +118,7 @@ class Trainer:
         self._optimizer.step()
         self._schedule.step()
         self._mean.update_parameters(self._net)
-        return float(value)
+        return float(value.detach())
 
     def _validate(self) -> Scores:
         detector = TorchDetector(self._mean.module)
@@ -137,6 +136,18 @@ class Trainer:
             "net": self._net.state_dict(), "mean": self._mean.state_dict(), "optimizer": self._optimizer.state_dict(),
             "schedule": self._schedule.state_dict(), "epoch": self._epoch, "best": self._best,
         }  # fmt: skip
+
+
+def running_mean(decay: float) -> Callable[[Tensor, Tensor, Tensor | int], Tensor]:
+    """Exponential mean of the weights that forgets the random start quickly: less decay in the first steps."""
+
+    def mean(kept: Tensor, new: Tensor, steps: Tensor | int) -> Tensor:
+        if not kept.is_floating_point():
+            return new
+        n = float(steps)
+        return kept.lerp(new, 1.0 - min(decay, (1.0 + n) / (10.0 + n)))
+
+    return mean
 
 
 def batch(
