@@ -13,6 +13,7 @@ import ipaddress
 import socket
 import threading
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 
 from pygnssutils import RTCM3_PROTOCOL, GNSSReader
@@ -77,7 +78,7 @@ class NtripClient:
         self._deliver = deliver
         self._gga = gga
         self._stopping = threading.Event()
-        self._connection: http.client.HTTPConnection | None = None
+        self._socket: socket.socket | None = None
         self._thread = threading.Thread(target=self._run, name="ntrip", daemon=True)
         self.problem = "not connected yet"
         self.received = 0
@@ -89,9 +90,10 @@ class NtripClient:
     def stop(self) -> None:
         """Disconnect."""
         self._stopping.set()
-        connection = self._connection
-        if connection is not None and connection.sock is not None:
-            connection.sock.shutdown(socket.SHUT_RDWR)
+        open_socket = self._socket
+        if open_socket is not None:
+            with suppress(OSError):
+                open_socket.shutdown(socket.SHUT_RDWR)
         self._thread.join()
 
     def _run(self) -> None:
@@ -104,7 +106,8 @@ class NtripClient:
 
     def _stream(self) -> None:
         connection = self._connect()
-        self._connection = connection
+        connection.connect()
+        self._socket = connection.sock
         try:
             connection.request("GET", f"/{self._params.mountpoint}", headers=self._headers())
             response = connection.getresponse()
@@ -112,7 +115,7 @@ class NtripClient:
             if not self.problem:
                 self._read(response)
         finally:
-            self._connection = None
+            self._socket = None
             connection.close()
 
     def _read(self, response: http.client.HTTPResponse) -> None:
