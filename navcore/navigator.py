@@ -16,6 +16,7 @@ from navcore.errors import InputError
 from navcore.geometry.angles import wrap
 from navcore.geometry.geodesy import EnuFrame
 from navcore.localization.attitude import Attitude, AttitudeParams
+from navcore.localization.independent_check import IndependentCheck, IndependentCheckParams
 from navcore.localization.pose_filter import PoseFilter, PoseFilterParams
 from navcore.maps.site_map import Datum
 from navcore.messages import (
@@ -58,6 +59,7 @@ class NavigatorParams:
     progress: ProgressParams = field(default_factory=ProgressParams)
     filter: PoseFilterParams = field(default_factory=PoseFilterParams)
     attitude: AttitudeParams = field(default_factory=AttitudeParams)
+    check: IndependentCheckParams = field(default_factory=IndependentCheckParams)
 
 
 class Navigator:
@@ -66,8 +68,10 @@ class Navigator:
     def __init__(self, datum: Datum, params: NavigatorParams, vehicle: VehicleParams = PAPER_A) -> None:
         self.params, self.vehicle = params, vehicle
         self.datum = (datum.lat_deg, datum.lon_deg, datum.height_m)
-        pose_filter = PoseFilter(EnuFrame(datum), params.filter)
-        self.senses = Senses(pose_filter, GnssEvidence(params.gnss), Attitude(params.attitude))
+        frame = EnuFrame(datum)
+        check = IndependentCheck(frame, params.check)
+        pose_filter = PoseFilter(frame, params.filter)
+        self.senses = Senses(pose_filter, GnssEvidence(params.gnss), Attitude(params.attitude), check)
         self.driver = Driver(params.driver, vehicle)
         self.progress = ProgressCheck(params.progress)
         self.pilot: Pilot | None = None
@@ -164,6 +168,7 @@ class Navigator:
         if request.kind in (RequestKind.START, RequestKind.RESUME):
             self.driver.reset()
             self.progress.reset()
+            self.senses.check.acknowledge()
             if self.pilot is not None:
                 self.pilot.start_over()
 
@@ -179,6 +184,7 @@ class Navigator:
     def _facts(self, at: Position, tick_s: float, start_distance: float | None = None) -> EventFacts:
         s, pilot, now_ns = self.senses, self.pilot, at.now_ns
         since_s = (now_ns - self._state_since_ns) * NS
+        cap = s.check.cap(now_ns, on_gnss=pilot is not None and pilot.mode is NavMode.GNSS_PATH)
         return EventFacts(
             state=self.state,
             mode=pilot.mode if pilot else NavMode.IDLE,
@@ -189,7 +195,8 @@ class Navigator:
             pose_std=s.pose_std,
             carried=pilot.carried if pilot else 0.0,
             gnss_age_s=s.gnss.age_s(now_ns),
-            gnss_trusted=s.gnss.streak > 0,
+            pose_cap=cap.speed,
+            pose_cap_reason=cap.reason,
             row_age_s=pilot.row.age_s(now_ns) if pilot else None,
             row_reason=pilot.row.reason if pilot else "",
             lateral_error=pilot.projection.lateral if pilot else None,

@@ -53,7 +53,10 @@ class EventParams:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EventFacts:
-    """What the table looks at in one tick. Ages are None where nothing came; `captured`: the path was reached."""
+    """What the table looks at in one tick, `pose_cap` in m/s being what the second opinion on the pose allows.
+
+    Ages are None where nothing came; `captured`: the path was reached.
+    """
 
     state: RunState
     mode: NavMode
@@ -64,7 +67,8 @@ class EventFacts:
     pose_std: float | None
     carried: float
     gnss_age_s: float | None
-    gnss_trusted: bool
+    pose_cap: float | None
+    pose_cap_reason: str
     row_age_s: float | None
     row_reason: str
     lateral_error: float | None
@@ -193,6 +197,16 @@ EVENTS: tuple[Event, ...] = (
         lambda f, p: f.state in MOVING and _on_gnss(f)
         and (_old(f.gnss_age_s, p.gnss_stop_s) or f.pose_std is None or not f.pose_std <= p.pose_std),
         "GNSS is lost. Check antenna and corrections, wait for the fix, then resume.",
+    ),
+    _event(
+        "pose_in_doubt", "STOP",
+        lambda f, _: f.state in MOVING and f.pose_cap is not None and not f.pose_cap > 0.0,
+        lambda f: f"The position is in doubt: {f.pose_cap_reason} Look at the robot and the antenna, then resume.",
+    ),
+    _event(
+        "pose_weak", "SLOW",
+        lambda f, _: f.state in UNDER_WAY and f.pose_cap is not None and f.pose_cap > 0.0,
+        lambda f: f"The robot drives slowly: {f.pose_cap_reason}",
     ),
     _event(
         "waiting_for_gnss", "HOLD",

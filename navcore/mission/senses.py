@@ -7,6 +7,7 @@ import math
 from navcore.chassis.protocol import ChassisState, ControlMode, GuardState
 from navcore.geometry.se2 import SE2
 from navcore.localization.attitude import Attitude
+from navcore.localization.independent_check import IndependentCheck
 from navcore.localization.pose_filter import PoseFilter
 from navcore.messages import FixQuality, NavInputs, PoseEstimate
 from navcore.mission.evidence import NS, GnssEvidence
@@ -18,8 +19,11 @@ STANDING_OMEGA = 0.05
 class Senses:
     """Feeds the pose filter and keeps the newest of everything else."""
 
-    def __init__(self, pose_filter: PoseFilter, gnss: GnssEvidence, attitude: Attitude) -> None:
+    def __init__(
+        self, pose_filter: PoseFilter, gnss: GnssEvidence, attitude: Attitude, check: IndependentCheck
+    ) -> None:
         self.filter = pose_filter
+        self.check = check
         self.attitude = attitude
         self.gnss = gnss
         self.chassis: ChassisState | None = None
@@ -32,13 +36,18 @@ class Senses:
             self.chassis = state
             self.filter.add_chassis(state)
             self.attitude.add_speed(state.v)
+            self.check.add_chassis(state)
         for sample in inputs.imu:
             self.filter.add_imu(sample)
             self.attitude.add_imu(sample)
+            self.check.add_imu(sample)
         for fix in inputs.gnss:
             self.gnss.add(fix)
             self.filter.add_gnss(fix)
+            self.check.add_gnss(fix)
         self.pose = self.filter.estimate(inputs.now_ns)
+        if self.pose is not None:
+            self.check.add_estimate(self.pose)
         before, self.T_odom_base = self.T_odom_base, self.filter.odom_at(inputs.now_ns)
         driven = math.hypot(self.T_odom_base.x - before.x, self.T_odom_base.y - before.y)
         self.attitude.drive(driven, self.T_odom_base.yaw)

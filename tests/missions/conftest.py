@@ -7,12 +7,12 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import pytest
-from navcore.planning.mission_planner import plan_mission
 
 from navcore.config import RobotConfig
 from navcore.maps.mission import Mission
 from navcore.maps.site_map import Datum, Lane, Row, SiteMap, Warehouse
 from navcore.messages import ModeSwitch, NavMode, Request, RequestKind, RunState
+from navcore.planning.mission_planner import plan_mission
 from navcore.runtime.lockstep import Lockstep, Tick
 from navcore.runtime.simulated_eye import ProjectedEye
 from navcore.sim.world import World, WorldParams
@@ -32,7 +32,7 @@ def farm() -> SiteMap:
     return SiteMap(
         name="Small farm",
         datum=Datum(lat_deg=31.4, lon_deg=120.9, height_m=8.0),
-        warehouse=Warehouse(x=0.0, y=-12.0, yaw=0.0),
+        warehouse=Warehouse(x=10.0, y=-12.0, yaw=0.0),
         lanes=(road,),
         rows=rows,
     )
@@ -48,11 +48,22 @@ class Drive:
     def start(self, site: SiteMap, mission: Mission) -> Tick:
         """Wait for the first position, then start; the tick after the request."""
         plan = plan_mission(site, mission, PAPER_A)
-        self.until(lambda tick: tick.decision.status.pose is not None, seconds=20)
+        self.until(lambda tick: tick.decision.status.pose is not None, seconds=4)
         self.until(lambda _: False, seconds=2)
         request = Request(kind=RequestKind.START, request_id="start", run_id="run", plan=plan)
         self.lockstep.ask(request)
         return self.lockstep.tick()
+
+    def ask(self, kind: RequestKind) -> Tick:
+        """Hand a request to the navigator; the tick that answered it."""
+        self.lockstep.ask(Request(kind=kind, request_id=kind.value))
+        return self.lockstep.tick()
+
+    def until_mode(self, mode: NavMode, seconds: float = 200) -> Tick:
+        """Drive until this mode; fails if it does not come."""
+        tick = self.until(lambda tick: tick.decision.status.mode is mode, seconds)
+        assert tick.decision.status.mode is mode, tick.decision.status
+        return tick
 
     def until(self, condition: Callable[[Tick], bool], seconds: float) -> Tick:
         """Drive until something holds, for at most so many simulated seconds."""

@@ -6,11 +6,11 @@ import statistics
 from collections.abc import Callable
 
 import pytest
-from navcore.planning.mission_planner import mission_for_row
 
 from navcore.maps.mission import RowExit
 from navcore.maps.site_map import SiteMap
 from navcore.messages import NavMode, RunState
+from navcore.planning.mission_planner import mission_for_row
 from tests.missions.conftest import Drive
 
 

@@ -1,0 +1,38 @@
+"""At the row's end the robot changes to the next row over the headland, without an RTK fix to help."""
+
+from __future__ import annotations
+
+import statistics
+from collections.abc import Callable
+from dataclasses import replace
+
+from navcore.maps.mission import RowExit
+from navcore.maps.site_map import SiteMap
+from navcore.messages import NavMode, RunState
+from navcore.planning.mission_planner import mission_for_row
+from navcore.sim.world import WorldParams
+from tests.missions.conftest import Drive, new_drive
+
+START_TO_ROW_S = 75.0
+
+
+def test_robot_changes_rows_over_the_headland_and_comes_home(park: Callable[[int], Drive], farm: SiteMap) -> None:
+    drive = park(3)
+    drive.start(farm, mission_for_row(farm, "r1", RowExit.NEXT_ROW))
+    last = drive.until_state(RunState.FINISHED, RunState.STOPPED, seconds=600)
+    assert last.decision.status.state is RunState.FINISHED, last.decision.status.events
+    assert statistics.mean(abs(e) for e in drive.lateral_in_rows()) < 0.10  # m
+    modes = [s.after for s in drive.switches]
+    assert modes.count(NavMode.ROW) == 2
+    assert NavMode.HEADLAND in modes
+
+
+def test_robot_changes_rows_while_gnss_has_no_fix_at_all(farm: SiteMap) -> None:
+    params = WorldParams(seed=4)
+    outage = replace(params.gnss, outages_s=((START_TO_ROW_S, 170.0),))
+    drive = new_drive(farm, replace(params, gnss=outage))
+    drive.start(farm, mission_for_row(farm, "r1", RowExit.NEXT_ROW))
+    drive.until_mode(NavMode.HEADLAND)
+    tick = drive.until_mode(NavMode.ROW)
+    assert tick.decision.status.row_id == "r0"
+    assert not any(tick.decision.status.gnss_quality == 4 for tick in drive.ticks[-50:])

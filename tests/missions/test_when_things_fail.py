@@ -1,0 +1,129 @@
+"""Whatever fails under way, the robot stops or waits, says why, and moves again only when it may."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+from navcore.chassis.protocol import GuardState, VehicleState
+from navcore.maps.mission import RowExit
+from navcore.maps.site_map import SiteMap
+from navcore.messages import NavMode, RequestKind, RunState
+from navcore.planning.mission_planner import mission_for_row
+from navcore.runtime.lockstep import Tick
+from tests.missions.conftest import Drive
+
+Park = Callable[[int], Drive]
+
+
+def on_the_road(park: Park, farm: SiteMap) -> Drive:
+    """A robot at speed on the way to its row."""
+    drive = park(7)
+    drive.start(farm, mission_for_row(farm, "r1", RowExit.REVERSE))
+    tick = drive.until(lambda tick: tick.truth.v > 0.5, seconds=60)
+    assert tick.truth.v > 0.5  # m/s
+    return drive
+
+
+def in_the_row(park: Park, farm: SiteMap) -> Drive:
+    """A robot some metres inside its row."""
+    drive = on_the_road(park, farm)
+    drive.until_mode(NavMode.ROW)
+    drive.until(lambda _: False, seconds=5)
+    return drive
+
+
+def events(tick: Tick) -> set[str]:
+    return {event.name for event in tick.decision.status.events}
+
+
+def stands(tick: Tick) -> bool:
+    return abs(tick.truth.v) < 0.01
+
+
+def seconds_until(drive: Drive, condition: Callable[[Tick], bool], limit: float) -> float:
+    """Simulated time until something holds; fails after the limit."""
+    before = drive.lockstep.now_ns
+    tick = drive.until(condition, limit)
+    assert condition(tick), tick.decision.status
+    return (drive.lockstep.now_ns - before) * 1e-9
+
+
+def test_operator_stop_stands_within_a_second_and_stays(park: Park, farm: SiteMap) -> None:
+    drive = on_the_road(park, farm)
+    drive.ask(RequestKind.STOP)
+    assert seconds_until(drive, stands, limit=2.0) < 1.5  # s, from 0.8 m/s
+    tick = drive.until(lambda tick: not stands(tick), seconds=10)
+    assert stands(tick)
+    assert tick.decision.status.state is RunState.STOPPED
+
+
+def test_a_stopped_mission_is_resumed_only_by_a_deliberate_request(park: Park, farm: SiteMap) -> None:
+    drive = on_the_road(park, farm)
+    drive.ask(RequestKind.STOP)
+    drive.until(lambda _: False, seconds=3)
+    drive.ask(RequestKind.RESUME)
+    tick = drive.until(lambda tick: tick.truth.v > 0.3, seconds=10)
+    assert tick.truth.v > 0.3  # m/s
+
+
+def test_pause_holds_and_resume_goes_on(park: Park, farm: SiteMap) -> None:
+    drive = on_the_road(park, farm)
+    drive.ask(RequestKind.PAUSE)
+    tick = drive.until(stands, seconds=5)
+    assert tick.decision.status.state is RunState.PAUSED
+    drive.ask(RequestKind.RESUME)
+    assert drive.until(lambda tick: tick.truth.v > 0.3, seconds=10).truth.v > 0.3  # m/s
+
+
+def test_emergency_stop_stops_and_its_release_does_not_move_the_robot(park: Park, farm: SiteMap) -> None:
+    drive = on_the_road(park, farm)
+    drive.lockstep.ecu.state = VehicleState.EMERGENCY_STOP
+    seconds_until(drive, stands, limit=1.5)
+    drive.lockstep.ecu.state = VehicleState.NORMAL
+    tick = drive.until(lambda tick: not stands(tick), seconds=10)
+    assert stands(tick)
+    assert tick.decision.status.state is RunState.STOPPED
+
+
+def test_silent_gnss_slows_then_stops_on_the_road(park: Park, farm: SiteMap) -> None:
+    drive = on_the_road(park, farm)
+    drive.lockstep.world.faults = replace(drive.lockstep.world.faults, gnss_silent=True)
+    assert seconds_until(drive, lambda t: "gnss_old" in events(t), limit=2.0) <= 1.6  # s: age 1.0 and latency
+    seconds_until(drive, lambda t: t.decision.status.state is RunState.STOPPED, limit=3.0)
+    seconds_until(drive, stands, limit=2.0)
+
+
+def test_silent_gnss_does_not_matter_in_the_row(park: Park, farm: SiteMap) -> None:
+    drive = in_the_row(park, farm)
+    drive.lockstep.world.faults = replace(drive.lockstep.world.faults, gnss_silent=True)
+    tick = drive.until(lambda t: t.decision.status.state is not RunState.DRIVING, seconds=8)
+    assert tick.decision.status.state is RunState.DRIVING
+
+
+def test_silent_camera_holds_in_the_row_and_goes_on_when_it_sees_again(park: Park, farm: SiteMap) -> None:
+    drive = in_the_row(park, farm)
+    eye, drive.lockstep.eye = drive.lockstep.eye, None
+    assert seconds_until(drive, lambda t: "row_unseen" in events(t), limit=1.0) <= 0.6  # s
+    tick = drive.until(stands, seconds=2)
+    assert tick.decision.status.state is RunState.HOLDING
+    assert tick.chassis.guard is GuardState.ARMED
+    drive.lockstep.eye = eye
+    assert drive.until(lambda t: t.truth.v > 0.3, seconds=5).truth.v > 0.3  # m/s
+
+
+def test_a_robot_that_is_stuck_gives_up(park: Park, farm: SiteMap) -> None:
+    drive = on_the_road(park, farm)
+    drive.lockstep.world.faults = replace(drive.lockstep.world.faults, stuck=True)
+    seconds_until(drive, lambda t: t.decision.status.state is RunState.STOPPED, limit=15.0)
+
+
+def test_start_is_refused_with_every_reason_at_once(park: Park, farm: SiteMap) -> None:
+    drive = park(7)
+    drive.lockstep.ecu.state = VehicleState.EMERGENCY_STOP
+    drive.lockstep.world.faults = replace(drive.lockstep.world.faults, gnss_silent=True)
+    drive.until(lambda _: False, seconds=1)
+    tick = drive.start(farm, mission_for_row(farm, "r1", RowExit.REVERSE))
+    (reply,) = tick.decision.replies
+    assert not reply.accepted
+    assert len(reply.reasons) >= 2
