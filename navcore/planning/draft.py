@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from itertools import groupby
 
 import numpy as np
@@ -15,6 +16,9 @@ from navcore.planning.speeds import planned_speeds
 from navcore.vehicle import VehicleParams
 
 Floats = NDArray[np.float64]
+
+# Points of a path are no nearer to each other than this, m.
+_NEAREST = 0.03
 
 
 class Draft:
@@ -34,9 +38,11 @@ class Draft:
         row: DrivenRow | None = None,
     ) -> None:  # fmt: skip
         """Append a stretch along poses (N, 3); `row` as driven in this segment's direction of motion."""
-        if len(poses) < 2 or float(np.abs(np.diff(poses[:, :2], axis=0)).sum()) < 1e-6:
+        kept = _spaced(poses)
+        if len(kept) < 2:
             return
-        wanted = np.broadcast_to(np.asarray(speeds, dtype=np.float64), len(poses))
+        wanted = np.broadcast_to(np.asarray(speeds, dtype=np.float64), len(poses))[kept]
+        poses = self._joined(poses[kept])
         self._segments.append(
             PathSegment(
                 kind=kind, points=_pairs(poses), speeds=tuple(wanted.tolist()), reverse=reverse,
@@ -44,6 +50,13 @@ class Draft:
                 row_start=row.entrance if row else None, row_end=row.far_end if row else None,
             )
         )  # fmt: skip
+
+    def _joined(self, poses: Floats) -> Floats:
+        """The poses, begun where the stretch before them ended: tiny stretches in between were left out."""
+        joined = poses.copy()
+        if self._segments:
+            joined[0, :2] = self._segments[-1].points[-1]
+        return joined
 
     def check(self, poses: Floats, where: str) -> None:
         """Add a problem if the body touches what it must not on poses (N, 3); `where` completes the sentence."""
@@ -73,6 +86,17 @@ class Draft:
         speeds = planned_speeds(points, wanted, self._vehicle, self._params).round(4)
         parts = np.split(speeds, np.cumsum([len(segment.points) for segment in segments])[:-1])
         return [_with_speeds(segment, part) for segment, part in zip(segments, parts, strict=True)]
+
+
+def _spaced(poses: Floats) -> list[int]:
+    """Indices of poses at least _NEAREST apart, the last one included; rounding makes hooks of nearer ones."""
+    kept = [0]
+    for i in range(1, len(poses)):
+        if math.dist(poses[i, :2], poses[kept[-1], :2]) >= _NEAREST:
+            kept.append(i)
+    if kept[-1] != len(poses) - 1 and len(kept) > 1:
+        kept[-1] = len(poses) - 1
+    return kept
 
 
 def _pairs(poses: Floats) -> tuple[tuple[float, float], ...]:

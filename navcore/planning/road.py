@@ -15,6 +15,7 @@ from navcore.messages import SegmentKind
 from navcore.planning.connection import Connection, Option, connect
 from navcore.planning.corners import rounded
 from navcore.planning.departures import Departure, options
+from navcore.planning.detour import detour
 from navcore.planning.draft import Draft
 from navcore.planning.params import PlanningParams
 
@@ -45,6 +46,9 @@ def add_road(
     """Add the cheapest free way to the draft, its problems if there is none; returns the goal it ends at."""
     if not road.waypoints:
         direct = _connect(draft, options(departures), goals, params)
+        way = _way_round(draft, departures[0].pose, goals[0].pose) if direct.obstacle else ()
+        if way:
+            return add_road(draft, departures, Road(road.name, way, road.first_number), goals, params)
         _add_departure(draft, departures[int(direct.start.key)])
         _add_connection(draft, direct, f"on the way {road.name}", _DEFAULT_SPEED, params)
         return direct.goal
@@ -58,6 +62,11 @@ def add_road(
     last = road.first_number + len(road.waypoints) - 1
     _add_connection(draft, left, f"on the way {road.name}, after waypoint {last}", speeds[-1], params)
     return left.goal
+
+
+def _way_round(draft: Draft, start: SE2, goal: SE2) -> tuple[Waypoint, ...]:
+    corners = detour(draft.space, (start.x, start.y), (goal.x, goal.y)) or []
+    return tuple(Waypoint(x=x, y=y, speed=_DEFAULT_SPEED) for x, y in corners)
 
 
 def _connect(draft: Draft, starts: list[Option], goals: list[Option], params: PlanningParams) -> Connection:
