@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import typer
 
-from navcore.cli import dataset, train
+from navcore.cli import dataset, evaluate, run, train
 from navcore.cli.decode import decode_app
 
 app = typer.Typer(
@@ -12,7 +12,9 @@ app = typer.Typer(
 )
 app.add_typer(decode_app, name="decode")
 dataset.register(app)
+evaluate.register(app)
 train.register(app)
+run.register(app)
 
 
 @app.callback()
