@@ -14,6 +14,7 @@ from navcore.sim.render.shadow import Shadow, shadow_cell
 
 FIRST_LEAF, LAST_LEAF, TUFT, FIRST_GROUND = 1, 3, 4, 11  # Material
 UNKNOWN_SUN = 0.6
+SOFT_SHADOW_M = 6.0
 Colour = tuple[float, float, float]
 
 
@@ -26,6 +27,9 @@ def shade(
     depth, albedo, shine, tags = layers.inverse_depth, layers.albedo, layers.shine, layers.tag
     linear, film, grain, jitter, sky = tables.linear, tables.developed, tables.grain, tables.jitter, tables.sky
     height, shear, middle, fog = shadow.height, shadow.shear, shadow.centre, tables.fog
+    bright = lighting.exposure / WHITE * 4095.0
+    red, green, blue = bright * lighting.gains[0], bright * lighting.gains[1], bright * lighting.gains[2]
+    noise, root = lighting.noise / WHITE * 4095.0, 1.44 * 0.33 * lighting.exposure
     sky_rows, sky_columns = sky_lookup(view, sky.shape[0], sky.shape[1])
     for row in range(view.height):
         y = (row + 0.5 - view.cy) / view.fy
@@ -35,7 +39,7 @@ def shade(
             dx = view.right[0] * x + view.down[0] * y + view.forward[0]
             dy = view.right[1] * x + view.down[1] * y + view.forward[1]
             dz = view.right[2] * x + view.down[2] * y + view.forward[2]
-            speck = grain[speck_row, speck_column] * lighting.noise
+            speck = grain[speck_row, speck_column] * noise
             speck_column = speck_column + 1 if speck_column + 1 < grain.shape[1] else 0
             w = depth[row, column]
             if w <= 0.0:
@@ -56,7 +60,7 @@ def shade(
                     top = (pz + bias) * 1000.0
                     cell = shadow_cell(shear, middle, px, py, pz, jitter[spot, 0], jitter[spot, 1])
                     share = UNKNOWN_SUN if cell < 0 else (1.0 if height[cell] <= top else 0.0)
-                    if not leaf and cell >= 0:
+                    if cell >= 0 and z < SOFT_SHADOW_M and not leaf:
                         cell = shadow_cell(shear, middle, px, py, pz, jitter[spot, 2], jitter[spot, 3])
                         share = 0.5 * share + (0.5 if cell < 0 or height[cell] <= top else 0.0)
                     s *= max(share, 0.10) if leaf or material == TUFT else share
@@ -66,11 +70,10 @@ def shade(
                 b = linear[albedo[row, column, 2]] * k * (lighting.ambient[2] * sky_share + lighting.direct[2] * s)
                 f = fog[min(int(z * lighting.haze_per_m * 256.0), 2047)]
                 r, g, b = mixed(r, lighting.haze[0], f), mixed(g, lighting.haze[1], f), mixed(b, lighting.haze[2], f)
-            r, g, b = r * lighting.exposure, g * lighting.exposure, b * lighting.exposure
-            speck *= 0.35 + 1.2 * math.sqrt(max(r + g + b, 0.0) * 0.33)
-            picture[row, column, 2] = film[developed(r * lighting.gains[0] + speck)]
-            picture[row, column, 1] = film[developed(g * lighting.gains[1] + speck)]
-            picture[row, column, 0] = film[developed(b * lighting.gains[2] + speck)]
+            speck *= 0.35 + math.sqrt(max(r + g + b, 0.0) * root)
+            picture[row, column, 2] = film[int(min(max(r * red + speck, 0.0), 4095.0))]
+            picture[row, column, 1] = film[int(min(max(g * green + speck, 0.0), 4095.0))]
+            picture[row, column, 0] = film[int(min(max(b * blue + speck, 0.0), 4095.0))]
 
 
 @compiled
@@ -112,9 +115,3 @@ def lamp_light(
 def mixed(a: float, b: float, share: float) -> float:
     """From a (share 0) to b (share 1)."""
     return a + (b - a) * share
-
-
-@inlined
-def developed(light: float) -> int:
-    """Index into the film table."""
-    return int(min(max(light / WHITE, 0.0), 1.0) * 4095.0)
