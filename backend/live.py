@@ -14,7 +14,7 @@ from navcore.topics import TOPICS
 from navcore.transport.endpoints import Endpoints
 from navcore.transport.pubsub import Received, Subscriber
 
-POLL_MS = 200
+POLL_MS = 50
 MOST_CLIENTS = 64
 HEADER_LENGTH = struct.Struct("<I")
 LiveMessage = str | bytes

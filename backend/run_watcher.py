@@ -21,7 +21,7 @@ from navcore.transport.endpoints import Endpoints
 from navcore.transport.pubsub import Received, Subscriber
 
 log = logging.getLogger("rowpilot.station")
-POLL_MS = 200
+POLL_MS = 50
 WRITE_S = 1.0
 LOST_S = 30.0
 LOST = "The station has not heard of the robot since. The log of the run tells what happened."

@@ -109,6 +109,12 @@ class SiteDocument(Sent):
     updated: datetime
 
 
+class ImportedSite(SiteDocument):
+    """A site made from a file, and what was noticed in it: sentences for the operator."""
+
+    notes: list[str]
+
+
 class SiteCreate(Received):
     """A new site, drawn or empty."""
 

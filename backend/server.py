@@ -33,7 +33,7 @@ def serve(settings: Settings) -> None:
     logging.basicConfig(level=logging.INFO, format=LOG_FORMAT, stream=sys.stderr)
     logging.getLogger("uvicorn.access").addFilter(WithoutQuery())
     listener = listen(settings)
-    bound = settings.model_copy(update={"port": listener.getsockname()[1]})
+    bound = settings.model_copy(update={"port": listener.getsockname()[1], "scene_port": scene_port(settings)})
     app = create_app(bound)
     station: Station = app.state.station
     sys.stdout.write(f"\n  Rowpilot is ready. Open this address (it works once):\n\n    {address(station)}\n\n")
@@ -48,6 +48,16 @@ def listen(settings: Settings) -> socket.socket:
     listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
     listener.bind((settings.host, settings.port))
     return listener
+
+
+def scene_port(settings: Settings) -> int | None:
+    """The port of the settings, or one that is free now."""
+    if not settings.scene or settings.scene_port is not None:
+        return settings.scene_port if settings.scene else None
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        port: int = probe.getsockname()[1]
+    return port
 
 
 def address(station: Station) -> str:

@@ -41,7 +41,8 @@ class Settings(BaseSettings):
         bus_dir: sockets between the processes.
         vehicle: key of `navcore.vehicle.PROFILES`.
         simulated: the robot is the simulator.
-        scene_port: loopback port of the 3D view, None without one.
+        scene: run the 3D view.
+        scene_port: its loopback port; chosen at start if None.
         upload_limit_bytes: largest orthophoto file that is taken.
         decoded_limit_bytes: largest orthophoto, decoded.
         import_memory_bytes, import_cpu_s, import_wall_s: limits of the import process.
@@ -60,6 +61,7 @@ class Settings(BaseSettings):
     bus_dir: Path = Field(default_factory=default_bus_dir)
     vehicle: str = "paper_a"
     simulated: bool = True
+    scene: bool = True
     scene_port: int | None = Field(default=None, ge=1, le=65535)
     upload_limit_bytes: int = Field(default=8 * 2**30, gt=0)
     decoded_limit_bytes: int = Field(default=12 * 2**30, gt=0)

@@ -1,36 +1,19 @@
-"""GeoJSON in and out of sites and missions."""
+"""GeoJSON from a browser, looked at before navcore reads it."""
 
 from __future__ import annotations
 
+import json
 from typing import Any
 
-from navcore.maps.mission import Mission
-from navcore.maps.site_map import SiteMap
+from navcore.errors import SiteError
 
 
-def read_site(document: dict[str, Any]) -> SiteMap:
-    """Raises SiteError."""
-    from navcore.maps import geojson
-
-    return geojson.site_from_geojson(document)
-
-
-def write_site(site: SiteMap) -> dict[str, Any]:
-    """A FeatureCollection."""
-    from navcore.maps import geojson
-
-    return geojson.site_to_geojson(site)
-
-
-def read_mission(document: dict[str, Any], site: SiteMap) -> Mission:
-    """Raises MissionError."""
-    from navcore.maps import geojson
-
-    return geojson.mission_from_geojson(document, site)
-
-
-def write_mission(mission: Mission, site: SiteMap) -> dict[str, Any]:
-    """A FeatureCollection."""
-    from navcore.maps import geojson
-
-    return geojson.mission_to_geojson(mission, site)
+def check_text(document: dict[str, Any]) -> dict[str, Any]:
+    """The document, if it can be written down again. Raises SiteError for NaN and for text that is no Unicode."""
+    try:
+        json.dumps(document, ensure_ascii=False, allow_nan=False).encode()
+    except (ValueError, RecursionError) as error:  # UnicodeEncodeError is a ValueError
+        raise SiteError(
+            "This GeoJSON holds NaN, infinity, broken text or too many levels. Export it again."
+        ) from error
+    return document

@@ -26,6 +26,7 @@ from backend.run_end import RunEnd
 from backend.run_starter import RunStarter
 from backend.run_watcher import RunWatcher
 from backend.runs import RunStore
+from backend.scene_process import SceneProcess
 from backend.settings import Settings
 from backend.sites import SiteStore
 from backend.stopper import Stopper
@@ -56,6 +57,7 @@ class Station:
     exports: ExportStore
     watcher: RunWatcher
     heartbeat: HeartbeatTeller
+    scene: SceneProcess
     closers: tuple[Callable[[], None], ...]
 
     def start(self, loop: asyncio.AbstractEventLoop) -> None:
@@ -63,6 +65,7 @@ class Station:
         self.hub.start(loop)
         self.watcher.start()
         self.heartbeat.start()
+        self.scene.start()
 
     def close(self) -> None:
         """Let go of threads, processes, sockets and the database."""
@@ -86,6 +89,7 @@ def open_station(settings: Settings) -> Station:
     stopper = Stopper(endpoints, told_to_stop)
     watcher = RunWatcher(endpoints, runs, hub.put, RunEnd(recorder).finish)
     heartbeat = HeartbeatTeller(told_alive, lambda: hub.operators(settings.operator_timeout_s))
+    scene = SceneProcess(settings)
     clients = (navigator, told_to_stop, told_alive, recorder, supervisor, database)
     return Station(
         settings=settings,
@@ -106,7 +110,8 @@ def open_station(settings: Settings) -> Station:
         exports=ExportStore(),
         watcher=watcher,
         heartbeat=heartbeat,
-        closers=tuple(part.close for part in (heartbeat, watcher, hub, jobs, stopper, *clients)),
+        scene=scene,
+        closers=tuple(part.close for part in (scene, heartbeat, watcher, hub, jobs, stopper, *clients)),
     )
 
 

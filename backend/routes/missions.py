@@ -6,7 +6,7 @@ from typing import Annotated, Any
 
 from fastapi import APIRouter, Body, Response
 
-from backend import planner, site_files
+from backend import planner
 from backend.deps import ERRORS, PathId, TheStation
 from backend.schemas import (
     MissionCreate,
@@ -16,6 +16,8 @@ from backend.schemas import (
     PreviewRequest,
     RowMissionRequest,
 )
+from backend.site_files import check_text
+from navcore.maps import geojson
 from navcore.maps.mission import Mission
 from navcore.planning.mission_planner import mission_for_row
 
@@ -45,7 +47,7 @@ def row_mission(station: TheStation, site_id: PathId, body: RowMissionRequest) -
 def import_mission(station: TheStation, site_id: PathId, body: GeoJson) -> MissionDocument:
     """Store a mission from GeoJSON."""
     site = station.sites.get(site_id).site
-    return station.missions.create(site_id, site_files.read_mission(body, site))
+    return station.missions.create(site_id, geojson.mission_from_geojson(check_text(body), site))
 
 
 @router.post("/sites/{site_id}/preview")
@@ -77,4 +79,4 @@ def export_mission(station: TheStation, mission_id: PathId, response: Response) 
     """The mission as GeoJSON."""
     document = station.missions.get(mission_id)
     response.headers["Content-Disposition"] = f'attachment; filename="mission-{mission_id}.geojson"'
-    return site_files.write_mission(document.mission, station.sites.get(document.site_id).site)
+    return geojson.mission_to_geojson(document.mission, station.sites.get(document.site_id).site)

@@ -6,9 +6,10 @@ from typing import Annotated, Any
 
 from fastapi import APIRouter, Body, Response
 
-from backend import site_files
 from backend.deps import ERRORS, PathId, TheStation
-from backend.schemas import SiteCreate, SiteDocument, SiteEdit, SiteSummary
+from backend.schemas import ImportedSite, SiteCreate, SiteDocument, SiteEdit, SiteSummary
+from backend.site_files import check_text
+from navcore.maps import geojson
 
 router = APIRouter(prefix="/api/sites", tags=["sites"], responses=ERRORS)
 GeoJson = Annotated[dict[str, Any], Body(description="GeoJSON FeatureCollection")]
@@ -27,9 +28,11 @@ def create_site(station: TheStation, body: SiteCreate) -> SiteDocument:
 
 
 @router.post("/import", status_code=201)
-def import_site(station: TheStation, body: GeoJson) -> SiteDocument:
-    """A new site from GeoJSON."""
-    return station.sites.create(site_files.read_site(body))
+def import_site(station: TheStation, body: GeoJson) -> ImportedSite:
+    """A new site from GeoJSON, with what was noticed and put right on the way."""
+    imported = geojson.import_site(check_text(body))
+    document = station.sites.create(imported.site)
+    return ImportedSite(**document.model_dump(exclude={"site"}), site=document.site, notes=list(imported.notes))
 
 
 @router.get("/{site_id}")
@@ -56,4 +59,4 @@ def delete_site(station: TheStation, site_id: PathId) -> None:
 def export_site(station: TheStation, site_id: PathId, response: Response) -> dict[str, Any]:
     """The site as GeoJSON."""
     response.headers["Content-Disposition"] = f'attachment; filename="site-{site_id}.geojson"'
-    return site_files.write_site(station.sites.get(site_id).site)
+    return geojson.site_to_geojson(station.sites.get(site_id).site)

@@ -81,9 +81,7 @@ def test_geojson_out_and_in_gives_the_same_farm(client: TestClient, stored: dict
     assert again["start"] == pytest.approx(row["start"], abs=1e-3)  # m
 
 
-def test_a_mission_goes_out_and_in_as_geojson(
-    client: TestClient, stored: dict[str, Any], mission: Mission
-) -> None:
+def test_a_mission_goes_out_and_in_as_geojson(client: TestClient, stored: dict[str, Any], mission: Mission) -> None:
     made = client.post(f"/api/sites/{stored['id']}/missions", json={"mission": as_json(mission)}).json()
     exported = client.get(f"/api/missions/{made['id']}/geojson").json()
     imported = client.post(f"/api/sites/{stored['id']}/missions/import", json=exported)
@@ -91,9 +89,7 @@ def test_a_mission_goes_out_and_in_as_geojson(
     assert [v["row_id"] for v in imported.json()["mission"]["visits"]] == ["r1"]
 
 
-def test_one_click_on_a_row_makes_a_mission_that_can_be_previewed(
-    client: TestClient, stored: dict[str, Any]
-) -> None:
+def test_one_click_on_a_row_makes_a_mission_that_can_be_previewed(client: TestClient, stored: dict[str, Any]) -> None:
     made = client.post(f"/api/sites/{stored['id']}/missions/for-row", json={"row_id": "r1", "exit": "reverse"})
     assert made.status_code == 200, made.text
     preview = client.post(f"/api/sites/{stored['id']}/preview", json={"mission": made.json()}).json()
@@ -127,9 +123,7 @@ def with_text_at(document: Any, path: tuple[Any, ...], text: str) -> str:
 
 
 @pytest.mark.parametrize("bad", ["NaN", "Infinity", "-Infinity", "1e999", '"nan"'])
-def test_no_number_of_a_site_may_be_anything_but_finite(
-    client: TestClient, stored: dict[str, Any], bad: str
-) -> None:
+def test_no_number_of_a_site_may_be_anything_but_finite(client: TestClient, stored: dict[str, Any], bad: str) -> None:
     document = {"version": 1, "site": stored["site"]}
     for path in paths_to_numbers(document):
         answer = client.put(

@@ -1,0 +1,61 @@
+"""Runs the 3D view beside the station and starts it again when it ends; nothing else depends on it."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from threading import Event, Thread
+
+from backend.settings import Settings
+
+PAUSE_S = 3.0
+PATIENCE_S = 3.0
+
+
+class SceneProcess:
+    """A thread that keeps one child process."""
+
+    def __init__(self, settings: Settings) -> None:
+        self._settings = settings
+        self._closing = Event()
+        self._thread = Thread(target=self._keep, name="scene", daemon=True)
+
+    def start(self) -> None:
+        """Begin, if the settings name a port."""
+        if self._settings.scene_port is not None:
+            self._thread.start()
+
+    def close(self) -> None:
+        """End the child."""
+        self._closing.set()
+        if self._thread.is_alive():
+            self._thread.join()
+
+    def _keep(self) -> None:
+        while not self._closing.is_set():
+            with subprocess.Popen(command(self._settings), stdin=subprocess.DEVNULL) as child:
+                while child.poll() is None and not self._closing.wait(0.2):
+                    pass
+                end(child)
+            self._closing.wait(PAUSE_S)
+
+
+def command(settings: Settings) -> list[str]:
+    """Of the 3D view."""
+    return [
+        sys.executable,
+        "-m",
+        "backend.scene",
+        f"--bus={settings.bus_dir}",
+        f"--port={settings.scene_port}",
+        f"--vehicle={settings.vehicle}",
+    ]
+
+
+def end(child: subprocess.Popen[bytes]) -> None:
+    """Asked first, then made to."""
+    child.terminate()
+    try:
+        child.wait(PATIENCE_S)
+    except subprocess.TimeoutExpired:
+        child.kill()
