@@ -132,9 +132,9 @@ def _note_wrong_numbers(name: str, group: list[SurveyedPoint], places: Floats, p
 def _note_order(name: str, ordered: list[SurveyedPoint], problems: Problems) -> None:
     """Numbers must grow along the line; gaps in them are no fault."""
     counts, last = Counter(p.name for p in ordered), 0
-    for point in ordered:
-        if point.number > last or point.line != name:
-            last = max(point.number, last)
+    for point in (p for p in ordered if p.line == name):
+        if point.number > last:
+            last = point.number
             continue
         last += 1
         twice = " and its name is used twice" if counts[point.name] > 1 else ""
