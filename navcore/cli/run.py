@@ -1,0 +1,133 @@
+"""`rowpilot run`: the station and its robot, simulated unless a CAN bus and a receiver are named."""
+
+from __future__ import annotations
+
+import signal
+import socket
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from navcore.errors import RowpilotError
+
+if TYPE_CHECKING:
+    from backend.settings import Settings
+    from navcore.runtime.processes import Robot
+
+MULTICAST_GROUP = "239.74.163.2"
+
+
+def register(app: typer.Typer) -> None:
+    """Add the verb."""
+    app.command(name="run")(run)
+
+
+def run(
+    port: Annotated[int | None, typer.Option(help="TCP port of the station; else ROWPILOT_PORT or 8000.")] = None,
+    data: Annotated[Path | None, typer.Option(help="Folder of database and logs; else ROWPILOT_DATA_DIR.")] = None,
+    can: Annotated[str | None, typer.Option(help="CAN interface of a real chassis, such as can0.")] = None,
+    gnss: Annotated[
+        str | None, typer.Option(help="Receiver, tcp://host:port or serial:///dev/ttyUSB0?115200.")
+    ] = None,
+    config: Annotated[Path | None, typer.Option(help="Settings of the robot, TOML.")] = None,
+    simulation: Annotated[str, typer.Option(help='What is simulated, JSON, such as \'{"season": "full"}\'.')] = "{}",
+) -> None:
+    """Serve the station and drive the robot. Ends with Ctrl-C; the robot then stops."""
+    try:
+        _run(_settings(port, data, simulated=can is None), can, gnss, config, simulation)
+    except RowpilotError as error:
+        typer.echo(f"rowpilot: {error}", err=True)
+        raise typer.Exit(1) from error
+
+
+def _settings(port: int | None, data: Path | None, *, simulated: bool) -> Settings:
+    """The station's settings: environment, then what was given here."""
+    from pydantic import ValidationError
+
+    from backend.settings import Settings
+    from navcore.errors import ConfigError
+
+    given = {"port": port, "data_dir": data, "simulated": simulated}
+    try:
+        return Settings(**{name: value for name, value in given.items() if value is not None})  # type: ignore[arg-type]
+    except ValidationError as error:
+        raise ConfigError(f"The settings are not usable: {error.errors()[0]['msg']}.") from error
+
+
+def _run(settings: Settings, can: str | None, gnss: str | None, config: Path | None, simulation: str) -> None:
+    from navcore.runtime.supervisor import Supervisor
+
+    settings.data_dir.mkdir(parents=True, exist_ok=True)
+    robot = _real_robot(settings, can, gnss, config) if can else _simulated_robot(settings, config, simulation)
+    supervisor = Supervisor(robot, None, _environment(settings))
+    ended: list[int] = []
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, lambda got, _: ended.append(got))
+    try:
+        supervisor.start()
+        while not ended:
+            supervisor.watch()
+    finally:
+        supervisor.close()
+
+
+def _environment(settings: Settings) -> dict[str, str]:
+    """What the station's own process is told."""
+    return {
+        "ROWPILOT_PORT": str(settings.port),
+        "ROWPILOT_DATA_DIR": str(settings.data_dir),
+        "ROWPILOT_BUS_DIR": str(settings.bus_dir),
+        "ROWPILOT_VEHICLE": settings.vehicle,
+        "ROWPILOT_SIMULATED": "true" if settings.simulated else "false",
+    }
+
+
+def _simulated_robot(settings: Settings, config: Path | None, simulation: str) -> Robot:
+    import msgspec
+
+    from navcore.errors import ConfigError
+    from navcore.runtime.processes import CanSettings, Robot
+    from navcore.runtime.simulation import SimulationParams
+
+    try:
+        params = msgspec.json.decode(simulation, type=SimulationParams)
+    except msgspec.DecodeError as error:
+        raise ConfigError(f"The simulation's settings are not usable: {error}") from error
+    options = {"port": _free_port(socket.SOCK_DGRAM), "hop_limit": 0, "fd": 0}
+    return Robot(
+        bus=settings.bus_dir, site=_demo_site(settings.data_dir), vehicle=settings.vehicle, config=config,
+        can=CanSettings(interface="udp_multicast", channel=MULTICAST_GROUP, options=options),
+        gnss=f"tcp://127.0.0.1:{_free_port(socket.SOCK_STREAM)}", simulation=params,
+    )  # fmt: skip
+
+
+def _real_robot(settings: Settings, can: str, gnss: str | None, config: Path | None) -> Robot:
+    from navcore.errors import ConfigError
+    from navcore.runtime.gnss_reader import check_address
+    from navcore.runtime.processes import CanSettings, Robot
+
+    if gnss is None:
+        raise ConfigError("A real robot needs a receiver: give --gnss.")
+    check_address(gnss)
+    return Robot(
+        bus=settings.bus_dir, site=_demo_site(settings.data_dir), vehicle=settings.vehicle, config=config,
+        can=CanSettings(interface="socketcan", channel=can), gnss=gnss,
+    )  # fmt: skip
+
+
+def _demo_site(data_dir: Path) -> Path:
+    """A farm to begin with, until the station names another."""
+    from navcore.sim.demo_farm import demo_farm
+    from navcore.transport.codec import encode
+
+    path = data_dir / "first_site.json"
+    path.write_bytes(encode(demo_farm()))
+    return path
+
+
+def _free_port(kind: socket.SocketKind) -> int:
+    """A port of this machine that nobody uses, so that two stations do not mix."""
+    with socket.socket(socket.AF_INET, kind) as probe:
+        probe.bind(("127.0.0.1", 0))
+        return int(probe.getsockname()[1])

@@ -1,0 +1,85 @@
+"""One supervised process."""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import signal
+import subprocess
+import sys
+from collections.abc import Callable
+from contextlib import suppress
+
+from navcore.runtime.processes import ProcessSpec, Robot
+from navcore.transport.supervision import ProcessStatus
+
+FIRST_PAUSE_S = 0.2
+LONGEST_PAUSE_S = 5.0
+CALM_S = 30.0
+PR_SET_PDEATHSIG = 1  # linux/prctl.h
+
+
+class Child:
+    """Started, watched, and started again after a pause that grows while it keeps dying. Times are monotonic s."""
+
+    def __init__(self, spec: ProcessSpec, environment: dict[str, str]) -> None:
+        self.spec = spec
+        self.restarts = 0
+        self._environment = environment
+        self._process: subprocess.Popen[bytes] | None = None
+        self._started_s = 0.0
+        self._start_at_s: float | None = None
+        self._pause_s = FIRST_PAUSE_S
+
+    def start(self, robot: Robot, now_s: float) -> None:
+        """Start it; it ends with us, however we end."""
+        command = (sys.executable, "-m", self.spec.module, *self.spec.arguments(robot))
+        self._process = subprocess.Popen(
+            command, env={**os.environ, **self._environment}, start_new_session=True, preexec_fn=_end_with_parent()
+        )
+        self._started_s, self._start_at_s = now_s, None
+
+    def watch(self, robot: Robot, now_s: float) -> None:
+        """Start it again if it has died."""
+        if self._process is not None and self._process.poll() is not None:
+            self._process = None
+            self._pause_s = FIRST_PAUSE_S if now_s - self._started_s > CALM_S else self._pause_s
+            self._start_at_s = now_s + self._pause_s
+            self._pause_s = min(2 * self._pause_s, LONGEST_PAUSE_S)
+        if self._start_at_s is not None and now_s >= self._start_at_s:
+            self.restarts += 1
+            self.start(robot, now_s)
+
+    def ask_to_end(self) -> None:
+        """SIGTERM."""
+        self._start_at_s = None
+        if self._process is not None:
+            with suppress(ProcessLookupError):
+                self._process.send_signal(signal.SIGTERM)
+
+    def end(self) -> None:
+        """SIGTERM, and SIGKILL for who does not listen."""
+        self.ask_to_end()
+        if self._process is None:
+            return
+        try:
+            self._process.wait(self.spec.patience_s)
+        except subprocess.TimeoutExpired:
+            self._process.kill()
+            self._process.wait()
+        self._process = None
+
+    def status(self) -> ProcessStatus:
+        """For whoever asks."""
+        process = self._process
+        running = process is not None and process.poll() is None
+        pid = process.pid if process is not None and running else None
+        return ProcessStatus(name=self.spec.name, running=running, pid=pid, restarts=self.restarts)
+
+
+def _end_with_parent() -> Callable[[], object] | None:
+    """Has the kernel send SIGTERM when the supervisor dies, where there is such a thing."""
+    if not sys.platform.startswith("linux"):
+        return None
+    prctl = ctypes.CDLL(None).prctl  # looked up before the fork: little is allowed after it
+    return lambda: prctl(PR_SET_PDEATHSIG, signal.SIGTERM)

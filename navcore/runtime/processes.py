@@ -1,0 +1,134 @@
+"""The table of processes: what runs, with which arguments, in which order it starts. It ends the other way round."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import msgspec
+
+from navcore.runtime.simulation import SimulationParams
+from navcore.transport.endpoints import Endpoints
+from navcore.vehicle import PROFILES, VehicleParams
+
+SCOUT_MAX_SPEED = 1.5
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CanSettings:
+    """Arguments of python-can. `options` are the interface's own whole numbers."""
+
+    interface: str = "socketcan"
+    channel: str = "can0"
+    options: dict[str, int] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Robot:
+    """All that the processes of one robot are started with.
+
+    Attributes:
+        bus: directory of the sockets. site: map of the farm as JSON.
+        vehicle: key of `vehicle.PROFILES`. config: settings, TOML; None takes the defaults.
+        can, gnss: chassis and receiver; simulated ones if `simulation` is given.
+    """
+
+    bus: Path
+    site: Path
+    vehicle: str
+    can: CanSettings
+    gnss: str
+    config: Path | None = None
+    simulation: SimulationParams | None = None
+
+    def vehicle_params(self) -> VehicleParams:
+        """The profile."""
+        return PROFILES[self.vehicle]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ProcessSpec:
+    """One process.
+
+    Attributes:
+        module: run with `python -m`.
+        arguments: of the command line.
+        simulated_only: not started on a real robot.
+        knows_site: ended and started anew when the farm changes.
+        patience_s: from SIGTERM to SIGKILL.
+    """
+
+    name: str
+    module: str
+    arguments: Callable[[Robot], tuple[str, ...]]
+    simulated_only: bool = False
+    knows_site: bool = False
+    patience_s: float = 5.0
+
+
+def guard_arguments(robot: Robot) -> tuple[str, ...]:
+    """The guard takes paths, for it knows nothing of ours."""
+    endpoints, limits = Endpoints(robot.bus), robot.vehicle_params()
+    options = [part for name, value in robot.can.options.items() for part in ("--option", f"{name}={value}")]
+    return (
+        "--command", str(endpoints.guard_command), "--stop", str(endpoints.guard_stop),
+        "--state", str(endpoints.chassis_state), "--interface", robot.can.interface, "--channel", robot.can.channel,
+        "--max-speed", str(min(limits.max_speed, SCOUT_MAX_SPEED)), "--max-turn-rate", str(limits.max_turn_rate),
+        *options,
+    )  # fmt: skip
+
+
+def navigator_arguments(robot: Robot) -> tuple[str, ...]:
+    """See navigator_process."""
+    return (*_bus(robot), *_site(robot), "--gnss", robot.gnss, *_config(robot))
+
+
+def world_arguments(robot: Robot) -> tuple[str, ...]:
+    """See world_process."""
+    return (
+        *_bus(robot), *_site(robot), "--vehicle", robot.vehicle, "--gnss-port", robot.gnss.rpartition(":")[2],
+        "--channel", robot.can.channel, "--can-port", str(robot.can.options["port"]), *_simulation(robot),
+    )  # fmt: skip
+
+
+def row_worker_arguments(robot: Robot) -> tuple[str, ...]:
+    """See row_worker."""
+    return (*_bus(robot), *_site(robot), *_config(robot), *_simulation(robot))
+
+
+PROCESSES: tuple[ProcessSpec, ...] = (
+    ProcessSpec(
+        name="world", module="navcore.runtime.world_process", arguments=world_arguments, simulated_only=True,
+        knows_site=True,
+    ),
+    ProcessSpec(name="guard", module="navcore.chassis.guard_process", arguments=guard_arguments),
+    ProcessSpec(
+        name="recorder", module="navcore.recording.recorder_process", arguments=lambda robot: _bus(robot),
+        patience_s=20.0,
+    ),
+    ProcessSpec(
+        name="navigator", module="navcore.runtime.navigator_process", arguments=navigator_arguments, knows_site=True
+    ),
+    ProcessSpec(
+        name="row_worker", module="navcore.runtime.row_worker", arguments=row_worker_arguments, simulated_only=True,
+        knows_site=True,
+    ),
+    ProcessSpec(name="station", module="backend", arguments=lambda robot: ()),
+)  # fmt: skip
+
+
+def _bus(robot: Robot) -> tuple[str, ...]:
+    return ("--bus", str(robot.bus))
+
+
+def _site(robot: Robot) -> tuple[str, ...]:
+    return ("--site", str(robot.site))
+
+
+def _config(robot: Robot) -> tuple[str, ...]:
+    return () if robot.config is None else ("--config", str(robot.config))
+
+
+def _simulation(robot: Robot) -> tuple[str, ...]:
+    return ("--simulation", msgspec.json.encode(robot.simulation or SimulationParams()).decode())

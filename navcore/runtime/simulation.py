@@ -1,0 +1,46 @@
+"""The simulated robot's world as its processes share it: the same seed builds the same orchard in each."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+from navcore.maps.site_map import SiteMap
+from navcore.sim.camera_light import LightName, LightParams, named_light
+from navcore.sim.orchard import OrchardParams, Season
+from navcore.sim.world import World, WorldParams
+from navcore.vehicle import VehicleParams
+
+
+class DetectorKind(StrEnum):
+    """PIXELS: the shipped detector on the drawn picture. TRUTH: boxes from the truth, where pixels cost too much."""
+
+    PIXELS = "pixels"
+    TRUTH = "truth"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SimulationParams:
+    """What an operator may choose of the simulated world.
+
+    Attributes:
+        world_seed: of everything random; >= 0.
+        season: leaves on the canopy. light: sun, clouds, lamp.
+        camera_latency_ms: from exposure until the picture is there, 0 to 500; drawing it takes part of that time.
+        detector: what finds trunks and posts.
+    """
+
+    world_seed: int = 1
+    season: Season = Season.GROWING
+    light: LightName = LightName.AFTERNOON
+    camera_latency_ms: int = 60
+    detector: DetectorKind = DetectorKind.PIXELS
+
+    def world(self, site: SiteMap, vehicle: VehicleParams, start_ns: int) -> World:
+        """The world of this simulation."""
+        orchard = OrchardParams(seed=self.world_seed, season=self.season)
+        return World(site, vehicle, WorldParams(seed=self.world_seed, orchard=orchard), start_ns)
+
+    def light_params(self) -> LightParams:
+        """The light of this simulation."""
+        return named_light(self.light, seed=self.world_seed)
