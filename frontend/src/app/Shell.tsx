@@ -51,7 +51,8 @@ function Pages() {
 }
 
 function SchemeToggle() {
-  const { colorScheme, toggleColorScheme } = useMantineColorScheme();
+  // Holding transitions still would inject a style element, which the CSP forbids.
+  const { colorScheme, toggleColorScheme } = useMantineColorScheme({ keepTransitions: true });
   const dark = colorScheme === "dark";
   return (
     <ActionIcon variant="transparent" color="white" className={css.scheme} onClick={toggleColorScheme} aria-label={dark ? "Light colours" : "Dark colours"}>

@@ -64,7 +64,7 @@ const centre = (view: CameraView): Shape[] =>
   view.centre ? [{ kind: "line", ...view.centre, color: OVERLAY_COLORS.centre, width: 5, dash: false }] : [];
 
 function rowEnd({ centre: line, row, width_px, height_px }: CameraView): Shape[] {
-  if (row.end_distance === null || row.end_distance === undefined) return [];
+  if (!row.valid || row.end_distance === null || row.end_distance === undefined) return [];
   const [u, v] = line ? [line.u1, line.v1] : [width_px / 2, height_px / 2];
   return [{ kind: "tag", u, v, text: `Row ends in ${metres(row.end_distance)}`, color: OVERLAY_COLORS.end }];
 }

@@ -1,7 +1,7 @@
 import { Button, Select } from "@mantine/core";
 import { IconCheck, IconPlayerPause, IconPlayerPlay, IconPlayerTrackNext } from "@tabler/icons-react";
 import { useMutation } from "@tanstack/react-query";
-import { useState } from "react";
+import { useEffect, useState } from "react";
 import { Link } from "wouter";
 
 import { post } from "../api/client";
@@ -35,6 +35,10 @@ export function Controls({ document, missions, mission, preview, onMission }: Pr
   const [sheet, setSheet] = useState(false);
   const act = useMutation({ mutationFn: (action: Action) => post(`/api/runs/current/${action}`) });
   const idle = !isUnderWay(state);
+  // A sheet left open must not come back by itself when the mission has ended.
+  useEffect(() => {
+    if (!idle) setSheet(false);
+  }, [idle]);
   const shown = (Object.keys(ACTIONS) as Action[]).filter((a) => state && ACTIONS[a].when(state, status?.guard ?? ""));
   return (
     <div className={css.controls}>
@@ -52,7 +56,7 @@ export function Controls({ document, missions, mission, preview, onMission }: Pr
           </Button>
         );
       })}
-      {mission && <StartSheet opened={sheet && idle} onClose={() => setSheet(false)} document={document} mission={mission} preview={preview} />}
+      {mission && <StartSheet opened={sheet} onClose={() => setSheet(false)} document={document} mission={mission} preview={preview} />}
     </div>
   );
 }

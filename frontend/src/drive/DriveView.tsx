@@ -56,5 +56,5 @@ export function DriveView({ robot, document }: { robot: Robot; document: SiteDoc
 function useShownPlan(preview: MissionPlan | null): MissionPlan | null {
   const driven = useTopic("nav/plan");
   const underWay = isUnderWay(useTopic("nav/status")?.state);
-  return underWay ? driven : preview;
+  return underWay ? (driven ?? preview) : preview;
 }

@@ -11,7 +11,7 @@ export function useRecordedStart(): void {
   const client = useQueryClient();
   const asked = useRef<string | null>(null);
   useEffect(() => {
-    if (!runId || asked.current === runId || history.seeded === runId) return;
+    if (!runId || asked.current === runId || history.missed !== runId) return;
     asked.current = runId;
     // Without a recorded start the line simply begins here.
     client.fetchQuery(trackQuery(runId)).then((track) => history.seed(runId, track), () => undefined);

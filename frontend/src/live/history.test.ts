@@ -36,6 +36,15 @@ describe("the page's memory of a run", () => {
     expect(history.samples.t.length).toBe(6);
   });
 
+  test("a run that began before the eyes of this page needs nothing from the station", () => {
+    const history = new RunHistory();
+    history.add(at(0, 0, null));
+    history.add(at(1, 0));
+    expect(history.missed).toBeNull();
+    history.seed("run", { x: [7], y: [7], switches: [] } as unknown as RunTrack);
+    expect(history.trail).toEqual([[0, 0]]);
+  });
+
   test("what the station recorded earlier is put in front, each switch once", () => {
     const history = new RunHistory();
     history.add(at(10, 5));

@@ -22,11 +22,14 @@ export class RunHistory {
   switches: ModeSwitch[] = [];
   /** Stamp of the first status seen of this run. */
   startNs = 0;
-  /** The run whose recorded start has been put in front. */
-  seeded: string | null = null;
+  /** The run that was under way already when this page was opened: its start must be asked for. */
+  missed: string | null = null;
+  private opened = false;
   private lastSample = -Infinity;
 
   add(status: NavStatus): void {
+    if (!this.opened) this.missed = status.run_id;
+    this.opened = true;
     if (status.run_id !== this.runId) this.begin(status);
     if (status.run_id === null) return;
     if (status.pose) this.extendTrail([status.pose.x, status.pose.y]);
@@ -39,8 +42,8 @@ export class RunHistory {
 
   /** Puts what the station recorded before this page was opened in front of what the page has seen. */
   seed(runId: string, track: RunTrack): void {
-    if (runId !== this.runId || this.seeded === runId) return;
-    this.seeded = runId;
+    if (runId !== this.runId || this.missed !== runId) return;
+    this.missed = null;
     this.trail = [...thinned(track), ...this.trail];
     const known = new Set(this.switches.map(({ stamp_ns }) => stamp_ns));
     this.switches = [...track.switches.filter(({ stamp_ns }) => !known.has(stamp_ns)), ...this.switches];

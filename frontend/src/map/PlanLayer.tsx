@@ -19,8 +19,8 @@ export const SEGMENT_COLORS: Record<SegmentKind, string> = {
 function style(feature: FeatureLike): Style[] {
   const { kind, reverse } = feature.get("segment") as PathSegment;
   return [
-    new Style({ stroke: new Stroke({ color: "rgba(0,0,0,0.6)", width: 7 }) }),
-    new Style({ stroke: new Stroke({ color: SEGMENT_COLORS[kind], width: 4, lineDash: reverse ? [4, 9] : undefined }) }),
+    new Style({ stroke: new Stroke({ color: "rgba(0,0,0,0.6)", width: 9 }) }),
+    new Style({ stroke: new Stroke({ color: SEGMENT_COLORS[kind], width: 6, lineDash: reverse ? [3, 11] : undefined }) }),
   ];
 }
 

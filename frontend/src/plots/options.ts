@@ -33,7 +33,7 @@ export function plotOptions({ color, dark, width, height, marks }: Wanted): uPlo
     legend: { show: false },
     cursor: { drag: { x: false, y: false }, points: { size: 7 } },
     scales: { x: { time: false } },
-    axes: [{ ...axis, size: 26, values: (_, ticks) => ticks.map(clock) }, { ...axis, size: 48 }],
+    axes: [{ ...axis, size: 26, values: (_, ticks) => ticks.map(clock) }, { ...axis, size: 48, space: 24 }],
     series: [{}, { stroke: color, width: 2, spanGaps: false, points: { show: false } }],
     hooks: {
       drawClear: [(plot) => drawBands(plot, marks.current.mode)],

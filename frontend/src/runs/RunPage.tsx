@@ -1,6 +1,6 @@
 import { Loader } from "@mantine/core";
 import { useQuery } from "@tanstack/react-query";
-import { useMemo, useState } from "react";
+import { useMemo } from "react";
 
 import { sentences } from "../api/client";
 import { robotQuery, runQuery, siteQuery, trackQuery } from "../api/queries";

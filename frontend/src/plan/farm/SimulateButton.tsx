@@ -27,7 +27,7 @@ export function SimulateButton({ siteId, editing }: { siteId: string; editing: S
   const here = robot.site_id === siteId;
   return (
     <Button variant={here ? "default" : "filled"} leftSection={<IconTractor size={22} />} loading={move.isPending} disabled={isUnderWay(robot.state) || !editing.site.warehouse} onClick={() => move.mutate()}>
-      {here ? "Restart the simulator on this farm" : "Simulate this farm"}
+      {here ? "Restart the simulator here" : "Simulate this farm"}
     </Button>
   );
 }
