@@ -65,7 +65,7 @@ class BeliefHistory:
 
     def start(self, belief: Belief) -> None:
         """First belief; what came since its time is run again, what came before only gives the held inputs."""
-        at = bisect_right(self._events, belief.stamp_ns, key=lambda e: e.stamp_ns)
+        at = self._place(belief.stamp_ns)
         for event in self._events[:at]:
             if event.hold is not None:
                 event.hold(belief)
@@ -80,7 +80,7 @@ class BeliefHistory:
 
     def add(self, event: Event) -> list[Verdict]:
         """Put an event in its place; what it said itself. `event` is not older than `oldest_ns`."""
-        at = bisect_right(self._events, event.stamp_ns, key=lambda e: e.stamp_ns)
+        at = self._place(event.stamp_ns)
         self._events.insert(at, event)
         verdicts = self._run_from(at)
         self._prune()
@@ -90,7 +90,7 @@ class BeliefHistory:
         """Belief at a time, predicted from the last event before it; None before the first belief."""
         if self._base is None or stamp_ns < self._base.stamp_ns:
             return None
-        index = bisect_right(self._events, stamp_ns, key=lambda e: e.stamp_ns)
+        index = self._place(stamp_ns)
         before = self._events[index - 1].after if index else self._base
         assert before is not None
         belief = before.copy()
@@ -112,9 +112,18 @@ class BeliefHistory:
             first = verdicts if i == 0 else first
         return first
 
+    def _place(self, stamp_ns: int) -> int:
+        """Behind all events up to that time; nearly always at the end."""
+        if not self._events or self._events[-1].stamp_ns <= stamp_ns:
+            return len(self._events)
+        return bisect_right(self._events, stamp_ns, key=lambda e: e.stamp_ns)
+
     def _prune(self) -> None:
+        """In portions, as a list gives up its front slowly."""
         limit = self._events[-1].stamp_ns - self._length_ns
-        drop = bisect_right(self._events, limit, key=lambda e: e.stamp_ns) - 1
+        if self._events[0].stamp_ns > limit - self._length_ns // 8:
+            return
+        drop = self._place(limit) - 1
         if drop <= 0:
             return
         if self._base is not None:

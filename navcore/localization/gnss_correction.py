@@ -9,7 +9,7 @@ import numpy as np
 
 from navcore.geometry.angles import wrap
 from navcore.localization.belief import GNSS_EAST, GNSS_NORTH, STATES, YAW, Belief, Floats, X, Y
-from navcore.localization.correction import correct, mahalanobis
+from navcore.localization.correction import Innovation
 from navcore.localization.gnss_noise import GnssNoise
 from navcore.localization.verdict import Evidence, Verdict
 from navcore.messages import GnssFix
@@ -71,8 +71,9 @@ class GnssCorrection:
         x, y = self.antenna(b)
         residual = np.array((east - x - b.mean[GNSS_EAST], north - y - b.mean[GNSS_NORTH]))
         R = np.diag(self._noise.white_variances(fix))
-        if mahalanobis(b, H, residual, R) <= self._p.position_gate:
-            correct(b, H, residual, R)
+        innovation = Innovation(b, H, residual, R)
+        if innovation.distance() <= self._p.position_gate:
+            innovation.apply()
             self._trust(b, fix)
             return Verdict(Evidence.POSITION, True)
         return self._doubt(b, fix, residual, R)
@@ -156,8 +157,8 @@ class GnssCorrection:
     def _turn(self, b: Belief, turn: float, variance: float) -> bool:
         H = np.zeros((1, STATES))
         H[0, YAW] = 1.0
-        residual, R = np.array((turn,)), np.array(((variance,),))
-        if mahalanobis(b, H, residual, R) > self._p.heading_gate:
+        innovation = Innovation(b, H, np.array((turn,)), np.array(((variance,),)))
+        if innovation.distance() > self._p.heading_gate:
             return False
-        correct(b, H, residual, R)
+        innovation.apply()
         return True

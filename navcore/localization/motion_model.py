@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -69,6 +70,15 @@ class MotionParams:
     unknown_rate: float = 1.0
 
 
+class Velocity(NamedTuple):
+    """Speed (m/s), turn rate (rad/s), density of its variance (rad^2/s), and whether the gyro told it."""
+
+    v: float
+    omega: float
+    rate_density: float
+    by_gyro: bool
+
+
 class Step:
     """Motion of one step: chord direction (c, s), distance (m), turn (rad), duration (s)."""
 
@@ -97,26 +107,27 @@ class MotionModel:
         if dt <= 0.0:
             return
         known = min(dt, self._p.longest_step_s)
-        v, omega, rate_var = self.velocity(b)
-        step = Step(float(b.mean[YAW]) + 0.5 * omega * known, v * known, omega * known, known)
-        self._spread(b, step, rate_var * known)
+        velocity = self.velocity(b)
+        yaw, turn = float(b.mean[YAW]), velocity.omega * known
+        step = Step(yaw + 0.5 * turn, velocity.v * known, turn, known)
+        self._spread(b, step, velocity)
         b.mean[X] += step.c * step.distance
         b.mean[Y] += step.s * step.distance
-        b.mean[YAW] = wrap(float(b.mean[YAW]) + step.turn)
+        b.mean[YAW] = wrap(yaw + turn)
         if dt > known:
             self._spread_unknown(b, dt - known)
         b.distance += abs(step.distance)
         b.stamp_ns = to_ns
 
-    def velocity(self, b: Belief) -> tuple[float, float, float]:
-        """Speed (m/s), turn rate (rad/s), and the density of the latter's variance, rad^2/s."""
+    def velocity(self, b: Belief) -> Velocity:
+        """How the robot moves at the belief's time."""
         v = b.v_wheel * (1.0 + float(b.mean[SPEED_SCALE]))
         if self.is_still(b, b.stamp_ns):
-            return v, 0.0, 0.0
-        if b.gyro_ns is not None and (b.stamp_ns - b.gyro_ns) * NS <= self._p.gyro_timeout_s:
-            return v, b.gyro - float(b.mean[GYRO_BIAS]), self._p.gyro_noise**2
+            return Velocity(v, 0.0, 0.0, False)
+        if self.uses_gyro(b):
+            return Velocity(v, b.gyro - float(b.mean[GYRO_BIAS]), self._p.gyro_noise**2, True)
         omega = b.omega_wheel / self._p.wheel_turn_ratio
-        return v, omega, (self._p.wheel_turn_std * omega) ** 2 + self._p.gyro_noise**2
+        return Velocity(v, omega, (self._p.wheel_turn_std * omega) ** 2 + self._p.gyro_noise**2, False)
 
     def is_still(self, b: Belief, now_ns: int) -> bool:
         """Whether the wheels have stood long enough."""
@@ -126,9 +137,9 @@ class MotionModel:
         """Whether the turn rate comes from the gyro now."""
         return b.gyro_ns is not None and (b.stamp_ns - b.gyro_ns) * NS <= self._p.gyro_timeout_s
 
-    def _spread(self, b: Belief, step: Step, turn_var: float) -> None:
+    def _spread(self, b: Belief, step: Step, velocity: Velocity) -> None:
         dt, distance, c, s = step.dt, step.distance, step.c, step.s
-        bias_dt = dt if self.uses_gyro(b) and not self.is_still(b, b.stamp_ns) else 0.0
+        bias_dt = dt if velocity.by_gyro else 0.0
         decay = self._gnss.decay(b.quality, dt)
         F = self._F
         F[X, YAW], F[Y, YAW] = -s * distance, c * distance
@@ -139,7 +150,7 @@ class MotionModel:
         b.mean[GNSS_EAST : GNSS_NORTH + 1] *= decay
         b.cov = F.dot(b.cov).dot(F.T)
         renewed = self._gnss.slow(b.quality) ** 2 * (1.0 - decay * decay)
-        self._add_noise(b.cov, step, turn_var, renewed)
+        self._add_noise(b.cov, step, velocity.rate_density * dt, renewed)
 
     def _add_noise(self, cov: Floats, step: Step, turn_var: float, renewed: float) -> None:
         p, c, s, metres, turned = self._p, step.c, step.s, abs(step.distance), abs(step.turn)

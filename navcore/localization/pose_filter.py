@@ -14,7 +14,7 @@ from navcore.geometry.geodesy import EnuFrame
 from navcore.geometry.se2 import SE2
 from navcore.localization.belief import GYRO_BIAS, YAW, Belief, X, Y
 from navcore.localization.belief_history import BeliefHistory, Event
-from navcore.localization.correction import correct
+from navcore.localization.correction import Innovation
 from navcore.localization.dead_reckoning import DeadReckoning, DeadReckoningParams
 from navcore.localization.filter_start import FilterStart, FilterStartParams
 from navcore.localization.filter_status import FilterStatus
@@ -120,7 +120,7 @@ class PoseFilter:
             return
 
         def apply(b: Belief) -> list[Verdict]:
-            return self._gnss.apply(b, fix, east, north, self._motion.velocity(b)[1])
+            return self._gnss.apply(b, fix, east, north, self._motion.velocity(b).omega)
 
         self._count(self._history.add(Event(fix.stamp_ns, apply)), fix.stamp_ns)
 
@@ -142,15 +142,15 @@ class PoseFilter:
         belief = self._history.at(now_ns)
         if belief is None:
             return None
-        v, omega, _ = self._motion.velocity(belief)
+        velocity = self._motion.velocity(belief)
         covariance = belief.cov[: YAW + 1, : YAW + 1]
         return PoseEstimate(
             stamp_ns=now_ns,
             x=float(belief.mean[X]),
             y=float(belief.mean[Y]),
             yaw=float(belief.mean[YAW]),
-            v=v,
-            omega=omega,
+            v=velocity.v,
+            omega=velocity.omega,
             covariance=tuple(float(c) for c in covariance.ravel()),
             source=self._source(belief),
         )
@@ -208,7 +208,7 @@ class PoseFilter:
         H = np.zeros((1, len(b.mean)))
         H[0, GYRO_BIAS] = 1.0
         R = np.array(((self._params.motion.gyro_noise**2 / dt,),))
-        correct(b, H, np.array((rate - b.mean[GYRO_BIAS],)), R)
+        Innovation(b, H, np.array((rate - b.mean[GYRO_BIAS],)), R).apply()
 
     def _is_sound(self, evidence: Evidence, stamp_ns: int, numbers: Iterable[float | None]) -> bool:
         reason = self._unsound(evidence, stamp_ns, numbers)

@@ -14,7 +14,7 @@ import numpy as np
 from navcore.geometry.angles import wrap
 from navcore.geometry.se2 import SE2
 from navcore.localization.belief import ROW_SHIFT, STATES, YAW, Belief, X, Y
-from navcore.localization.correction import correct, mahalanobis
+from navcore.localization.correction import Innovation
 from navcore.localization.verdict import Evidence, Verdict
 from navcore.messages import CameraName, RowObservation
 
@@ -60,9 +60,10 @@ class RowCorrection:
         residual = np.array((seen.offset - offset, wrap(seen.heading - wrap(direction - driving_yaw))))
         R = np.diag((self._variance(seen.offset_std, self._p.offset_floor),
                      self._variance(seen.heading_std, self._p.heading_floor)))  # fmt: skip
-        if mahalanobis(b, H, residual, R) > self._p.gate:
+        innovation = Innovation(b, H, residual, R)
+        if innovation.distance() > self._p.gate:
             return Verdict(Evidence.ROW, False, f"row is seen {residual[0]:+.2f} m from where it should be")
-        correct(b, H, residual, R)
+        innovation.apply()
         return Verdict(Evidence.ROW, True)
 
     def _take_row(self, b: Belief, line: SE2) -> None:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -42,9 +40,10 @@ def test_seeing_a_row_does_not_move_the_robot_along_it() -> None:
 
 def test_row_end_corrects_the_place_along_the_row() -> None:
     anchor, odom = anchored(), SE2(8.0, 3.0, 0.25)
+    wanted = ROW.coordinates(anchor.T_map_odom @ odom).x + 1.5
     for _ in range(50):
-        anchor.see_along(ROW, odom, along=4.0, std=0.4)
-    assert ROW.coordinates(anchor.T_map_odom @ odom).x == pytest.approx(4.0, abs=0.1)
+        anchor.see_along(ROW, odom, along=wanted, std=0.4)
+    assert ROW.coordinates(anchor.T_map_odom @ odom).x == pytest.approx(wanted, abs=0.1)
 
 
 @given(st.floats(-2, 2), st.floats(-2, 2), st.floats(-1, 1), st.floats(0.005, 0.1))
@@ -54,7 +53,9 @@ def test_followed_pose_never_jumps(dx: float, dy: float, turn: float, dt: float)
     anchor.follow(SE2(2.0 + dx, 1.0 + dy, 0.1 + turn))
     after = anchor.slide(odom, dt)
     params = anchor.params
-    assert math.dist((before.x, before.y), (after.x, after.y)) <= params.slide * dt + 1e-9
+    moved = before.inverse() @ after
+    assert abs(moved.y) <= params.slide * dt + 1e-9
+    assert abs(moved.x) <= params.slide_along * dt + 1e-9
     assert abs(after.yaw - before.yaw) <= params.turn * dt + 1e-9
 
 
@@ -65,3 +66,17 @@ def test_followed_pose_arrives() -> None:
         pose = anchor.slide(odom, 0.02)
     wanted = anchor.T_map_odom @ odom
     assert (pose.x, pose.y, pose.yaw) == pytest.approx((wanted.x, wanted.y, wanted.yaw), abs=1e-6)
+
+
+def test_a_row_end_far_from_where_it_can_be_is_not_believed() -> None:
+    anchor, odom = anchored(), SE2(8.0, 3.0, 0.25)
+    before = ROW.coordinates(anchor.T_map_odom @ odom).x
+    anchor.see_along(ROW, odom, along=before + 12.0, std=0.4)
+    assert ROW.coordinates(anchor.T_map_odom @ odom).x == pytest.approx(before, abs=1e-9)
+
+
+def test_a_wrong_map_is_corrected_by_the_row_end() -> None:
+    anchor, odom = anchored(), SE2(8.0, 3.0, 0.25)
+    before = ROW.coordinates(anchor.T_map_odom @ odom).x
+    anchor.see_along(ROW, odom, along=before + 0.8, std=0.4)
+    assert ROW.coordinates(anchor.T_map_odom @ odom).x > before + 0.5
