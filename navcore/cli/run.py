@@ -104,12 +104,12 @@ def _simulated_robot(settings: Settings, config: Path | None, simulation: str) -
 
 def _real_robot(settings: Settings, can: str, gnss: str | None, config: Path | None) -> Robot:
     from navcore.errors import ConfigError
-    from navcore.runtime.gnss_reader import check_address
+    from navcore.runtime.gnss_address import GnssAddress
     from navcore.runtime.processes import CanSettings, Robot
 
     if gnss is None:
         raise ConfigError("A real robot needs a receiver: give --gnss.")
-    check_address(gnss)
+    GnssAddress(gnss)
     return Robot(
         bus=settings.bus_dir, site=_demo_site(settings.data_dir), vehicle=settings.vehicle, config=config,
         can=CanSettings(interface="socketcan", channel=can), gnss=gnss,

@@ -13,6 +13,8 @@ import time
 from pathlib import Path
 
 from navcore.config import RobotConfig, config_to_tree, load_config
+from navcore.drivers.gnss_reader import GnssReader
+from navcore.drivers.nmea_stream import NmeaStream
 from navcore.errors import InputError
 from navcore.maps.site_map import SiteMap
 from navcore.messages import (
@@ -28,7 +30,7 @@ from navcore.messages import (
     RunState,
 )
 from navcore.runtime.clock import Every, Ticker
-from navcore.runtime.gnss_reader import GnssReader
+from navcore.runtime.gnss_address import GnssAddress
 from navcore.runtime.guard_link import GuardLink
 from navcore.runtime.latest import Inbox
 from navcore.runtime.promptness import be_prompt
@@ -68,7 +70,8 @@ class Senses:
         self._bus = Subscriber(endpoints, (IMU_SAMPLE.name, ROW_OBSERVATION.name))
         self._requests = Replier(endpoints.navigator_requests)
         self._fixes: Inbox[GnssFix] = Inbox(FIXES)
-        self._gnss = GnssReader(gnss_address, self._fixes)
+        self._gnss = GnssReader(GnssAddress(gnss_address).open, NmeaStream(), self._fixes.put, time.monotonic_ns)
+        self._gnss.start()
         self._asked: Request | None = None
 
     def gather(self, now_ns: int) -> NavInputs:
@@ -99,7 +102,7 @@ class Senses:
 
     def close(self) -> None:
         """Hang up everywhere."""
-        self._gnss.close()
+        self._gnss.stop()
         self.guard.close()
         self._bus.close()
         self._requests.close()

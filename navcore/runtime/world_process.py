@@ -20,6 +20,7 @@ import msgspec
 from navcore.chassis.scout_can import Frame
 from navcore.maps.site_map import SiteMap
 from navcore.runtime.clock import Every
+from navcore.runtime.promptness import be_prompt
 from navcore.runtime.simulation import SimulationParams
 from navcore.runtime.site_file import read_site
 from navcore.sim.scout_ecu import ScoutEcu, ScoutEcuParams
@@ -31,6 +32,7 @@ from navcore.vehicle import PROFILES, VehicleParams
 
 STEP_NS = 5_000_000
 TRUTH_NS = 20_000_000
+PRIORITY = 10  # a world that stutters is no fair test of who drives in it
 FARM_NS = 1_000_000_000
 
 
@@ -143,6 +145,7 @@ def main() -> None:
     bus = can.Bus(interface="udp_multicast", channel=given.channel, port=given.can_port, hop_limit=0, fd=False)
     endpoints, site = Endpoints(given.bus), read_site(given.site)
     process = WorldProcess(endpoints, site, PROFILES[given.vehicle], params, bus, given.gnss_port)
+    be_prompt(PRIORITY)
     while not ended:
         process.step()
     process.close()
