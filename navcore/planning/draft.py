@@ -17,6 +17,8 @@ from navcore.vehicle import VehicleParams
 
 Floats = NDArray[np.float64]
 
+# Every so many poses the body is checked: 0.3 m apart, so that bodies overlap by far.
+_CHECKED = 3
 # Points of a path are no nearer to each other than this, m.
 _NEAREST = 0.03
 
@@ -60,6 +62,7 @@ class Draft:
 
     def check(self, poses: Floats, where: str) -> None:
         """Add a problem if the body touches what it must not on poses (N, 3); `where` completes the sentence."""
+        poses = np.vstack((poses[:-1:_CHECKED], poses[-1:]))
         hit = self.space.blocked(poses)
         if hit is not None:
             x, y = poses[hit[0], :2]
@@ -90,6 +93,8 @@ class Draft:
 
 def _spaced(poses: Floats) -> list[int]:
     """Indices of poses at least _NEAREST apart, the last one included; rounding makes hooks of nearer ones."""
+    if len(poses) > 1 and np.hypot(*np.diff(poses[:, :2], axis=0).T).min() >= _NEAREST:
+        return list(range(len(poses)))
     kept = [0]
     for i in range(1, len(poses)):
         if math.dist(poses[i, :2], poses[kept[-1], :2]) >= _NEAREST:

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
+import numpy as np
+from numpy.typing import NDArray
+
 from navcore.vehicle import VehicleParams
+
+Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -57,7 +61,8 @@ class PlanningParams:
         """Turn rate on the ground that paths may count on, rad/s."""
         return self.turn_share * vehicle.max_turn_rate / vehicle.turn_track_ratio
 
-    def curve_speed(self, curvature: float, vehicle: VehicleParams) -> float:
-        """Highest speed on a curve of that curvature (1/m)."""
-        k = max(abs(curvature), 1e-6)
-        return max(min(self.turn_rate(vehicle) / k, math.sqrt(self.max_lateral_acceleration / k)), self.slowest)
+    def curve_speeds(self, curvature: Floats, vehicle: VehicleParams) -> Floats:
+        """Highest speeds (N,) on curves of those curvatures (N,), 1/m."""
+        k = np.maximum(np.abs(curvature), 1e-6)
+        bounds = np.minimum(self.turn_rate(vehicle) / k, np.sqrt(self.max_lateral_acceleration / k))
+        return np.maximum(bounds, self.slowest)

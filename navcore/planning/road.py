@@ -133,10 +133,12 @@ def _add_line(draft: Draft, line: Polyline, s0: float, s1: float, road: Road) ->
     poses = np.column_stack((part.points, headings))
     numbers = _next_waypoint(part.points, line, road.waypoints)
     speeds = np.array([w.speed for w in road.waypoints])[numbers]
-    hit = draft.space.blocked(poses)
+    checked = np.arange(0, len(poses), 3)
+    hit = draft.space.blocked(poses[checked])
     if hit is not None:
-        number = road.first_number + int(numbers[hit[0]])
-        place = (float(poses[hit[0], 0]), float(poses[hit[0], 1]))
+        met = checked[hit[0]]
+        number = road.first_number + int(numbers[met])
+        place = (float(poses[met, 0]), float(poses[met, 1]))
         draft.meets(f"on the way {road.name}, before waypoint {number},", hit[1], place)
     draft.add(SegmentKind.ROAD, poses, speeds)
 

@@ -19,7 +19,7 @@ def planned_speeds(points: Floats, wanted: Floats, vehicle: VehicleParams, param
     """Speeds (N,): as wanted (N,), bounded by the curvature there, changing no faster than braking allows."""
     line = Polyline(points)
     curve = _smoothed_curvature(line)
-    bounds = np.array([params.curve_speed(float(k), vehicle) for k in curve])
+    bounds = params.curve_speeds(curve, vehicle)
     speeds = np.minimum(np.minimum(wanted, vehicle.max_speed), bounds)
     return np.maximum(_eased(_eased(speeds, line.s, params.braking)[::-1], -line.s[::-1], params.braking)[::-1], 0.05)
 
@@ -34,7 +34,7 @@ def _smoothed_curvature(line: Polyline) -> Floats:
 
 def _eased(speeds: Floats, s: Floats, acceleration: float) -> Floats:
     """Speeds that rise along s no faster than the acceleration: v^2 <= v0^2 + 2 a ds."""
-    eased = speeds.copy()
-    for i in range(1, len(eased)):
-        eased[i] = min(eased[i], np.sqrt(eased[i - 1] ** 2 + 2.0 * acceleration * (s[i] - s[i - 1])))
-    return eased
+    squares, gains = (speeds**2).tolist(), (2.0 * acceleration * np.diff(s)).tolist()
+    for i, gain in enumerate(gains, start=1):
+        squares[i] = min(squares[i], squares[i - 1] + gain)
+    return np.sqrt(np.array(squares, dtype=np.float64))

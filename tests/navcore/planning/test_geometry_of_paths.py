@@ -9,14 +9,12 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from navcore.errors import InputError, NotFiniteError
 from navcore.geometry.angles import wrap
 from navcore.geometry.se2 import SE2
 from navcore.maps.site_map import Lane
 from navcore.planning.corners import rounded
 from navcore.planning.dubins import dubins_paths
 from navcore.planning.lane_graph import LaneGraph
-from navcore.planning.recorded_drive import followable_course
 
 coordinates = st.floats(-20.0, 20.0)
 poses = st.builds(SE2, coordinates, coordinates, st.floats(-math.pi, math.pi))
@@ -91,24 +89,3 @@ def test_lanes_apart_do_not_connect() -> None:
     assert graph.nearest(48.0, 20.0) == pytest.approx((50.0, 20.0))
     assert graph.first_crossing((40.0, 20.0), (60.0, 20.0)) == pytest.approx((50.0, 20.0))
     assert graph.first_crossing((40.0, 20.0), (41.0, 20.0)) is None
-
-
-@pytest.mark.parametrize("seed", [1, 2])
-def test_a_noisy_jumping_drive_becomes_a_course_that_can_be_driven(seed: int) -> None:
-    rng = np.random.default_rng(seed)
-    t = np.linspace(0.0, 60.0, 3000)
-    true = np.column_stack((t, 3.0 * np.sin(t / 6.0)))
-    drive = true + 0.02 * rng.standard_normal(true.shape)
-    drive[rng.choice(3000, 20)] += rng.uniform(-1.0, 1.0, (20, 2))
-    course = followable_course(drive)
-    off = [np.hypot(*(true - point).T).min() for point in course.points]
-    assert np.mean(off) < 0.10
-    assert np.abs(course.curvatures).max() < 1.0 / 0.85
-    assert course.length == pytest.approx(np.hypot(*np.diff(true, axis=0).T).sum(), rel=0.05)
-
-
-def test_a_drive_without_sound_positions_is_refused() -> None:
-    with pytest.raises(InputError, match="five"):
-        followable_course(np.zeros((100, 2)))
-    with pytest.raises(NotFiniteError):
-        followable_course(np.array([(0.0, math.nan)] * 10))
