@@ -29,8 +29,8 @@ class RecorderClient:
         if not reply.accepted:
             raise RefusedError("The run cannot be logged.", [reply.reason])
 
-    def finish(self, run_id: str) -> None:
-        """Close the log of that run; nothing happens if it is closed. Raises TransportError without an answer."""
+    def finish(self, run_id: str | None) -> None:
+        """Close the log of that run, or any log that is open. Raises TransportError without an answer."""
         self._ask(RecorderRequest(kind=RecorderRequestKind.FINISH, run_id=run_id))
 
     def _ask(self, request: RecorderRequest) -> RecorderReply:

@@ -13,7 +13,7 @@ log = logging.getLogger("rowpilot.station")
 
 
 class RunEnd:
-    """Closes the log of a run that is finished. That of a stopped one stays open: it may be resumed."""
+    """Closes the log of a run that is over. A stopped run is not: it may be resumed until it is acknowledged."""
 
     def __init__(self, recorder: RecorderClient) -> None:
         self._recorder = recorder

@@ -25,7 +25,7 @@ POLL_MS = 50
 WRITE_S = 1.0
 LOST_S = 30.0
 LOST = "The station has not heard of the robot since. The log of the run tells what happened."
-OVER = frozenset({RunState.IDLE, RunState.FINISHED, RunState.STOPPED})
+OVER = frozenset({RunState.IDLE, RunState.FINISHED})
 
 
 class RunWatcher:
@@ -84,9 +84,9 @@ class RunWatcher:
         if self._figures is None or self._figures.run_id != status.run_id:
             self._let_go()
             self._figures = self._follow(status.run_id)
-        was_over = self._figures.over
+        before = self._figures.last
         self._figures.add(status)
-        if self._figures.over and not was_over:
+        if status.state in OVER and (before is None or before.state not in OVER):
             self._write()
             self._on_end(status.run_id)
 

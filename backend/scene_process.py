@@ -33,7 +33,10 @@ class SceneProcess:
 
     def _keep(self) -> None:
         while not self._closing.is_set():
-            with subprocess.Popen(command(self._settings), stdin=subprocess.DEVNULL) as child:
+            # Its banner on stdout names an address that only the station may use.
+            with subprocess.Popen(
+                command(self._settings), stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL
+            ) as child:
                 while child.poll() is None and not self._closing.wait(0.2):
                     pass
                 end(child)

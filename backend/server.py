@@ -31,6 +31,8 @@ class WithoutQuery(logging.Filter):
 def serve(settings: Settings) -> None:
     """Run until SIGTERM or SIGINT."""
     logging.basicConfig(level=logging.INFO, format=LOG_FORMAT, stream=sys.stderr)
+    for quiet in ("alembic", "websockets", "rasterio"):
+        logging.getLogger(quiet).setLevel(logging.WARNING)
     logging.getLogger("uvicorn.access").addFilter(WithoutQuery())
     listener = listen(settings)
     bound = settings.model_copy(update={"port": listener.getsockname()[1], "scene_port": scene_port(settings)})

@@ -15,6 +15,7 @@ from backend.settings import Settings
 from backend.station import Station
 from navcore.maps.mission import Mission, RowVisit, Waypoint
 from navcore.maps.site_map import Datum, Lane, Row, SiteMap, Warehouse
+from tests.backend.played_robot import PlayedRobot
 
 ORIGIN = "http://127.0.0.1:8000"
 
@@ -81,3 +82,11 @@ def mission() -> Mission:
         visits=(RowVisit(row_id="r1"),),
         inbound=(Waypoint(x=0.0, y=0.0),),
     )
+
+
+@pytest.fixture
+def robot(bus_dir: Path) -> Iterator[PlayedRobot]:
+    """A robot at the other end of the bus; to be asked for before the station."""
+    played = PlayedRobot(bus_dir)
+    yield played
+    played.close()

@@ -1,0 +1,164 @@
+"""Runs: started once, stopped always, looked back at; the robot is played, everything else is real."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import msgspec
+import pytest
+from fastapi.testclient import TestClient
+
+from backend.station import Station
+from navcore.maps.site_map import SiteMap
+from navcore.messages import RequestKind, RunState
+from tests.backend.played_robot import PlayedRobot, until
+
+pytestmark = pytest.mark.usefixtures("robot")
+
+
+def as_json(value: object) -> Any:
+    return json.loads(msgspec.json.encode(value))
+
+
+@pytest.fixture
+def ready(robot: PlayedRobot, client: TestClient, site: SiteMap) -> dict[str, Any]:
+    """A stored mission, the robot on its farm and connected."""
+    farm = client.post("/api/sites", json={"site": as_json(site)}).json()
+    made = client.post(f"/api/sites/{farm['id']}/missions/for-row", json={"row_id": "r1", "exit": "reverse"}).json()
+    mission: dict[str, Any] = client.post(f"/api/sites/{farm['id']}/missions", json={"mission": made}).json()
+    assert client.post("/api/robot/site", json={"site_id": farm["id"]}).status_code == 200
+    assert until(lambda: client.get("/api/robot").json()["connected"])
+    return mission
+
+
+def start(client: TestClient, mission: dict[str, Any]) -> Any:
+    nonce = client.get("/api/drive/nonce").json()["nonce"]
+    return client.post("/api/runs", json={"mission_id": mission["id"], "link_loss": "stop", "nonce": nonce})
+
+
+def test_a_mission_is_started_and_the_run_keeps_its_own_copies(
+    client: TestClient, robot: PlayedRobot, ready: dict[str, Any]
+) -> None:
+    answer = start(client, ready)
+    assert answer.status_code == 201, answer.text
+    run = answer.json()
+    (request,) = (r for r in robot.requests if r.kind is RequestKind.START)
+    assert request.plan is not None
+    assert (request.run_id, request.link_loss) == (run["id"], "stop")
+    changed = {"version": 1, "mission": ready["mission"] | {"name": "changed while driving", "visits": []}}
+    assert client.put(f"/api/missions/{ready['id']}", json=changed).status_code == 200
+    assert client.delete(f"/api/sites/{ready['site_id']}").status_code == 204
+    detail = client.get(f"/api/runs/{run['id']}").json()
+    assert detail["mission"]["visits"] == ready["mission"]["visits"]
+    assert detail["plan"] == as_json(request.plan)
+    assert detail["site_id"] is None
+
+
+def test_a_start_is_good_once(client: TestClient, robot: PlayedRobot, ready: dict[str, Any]) -> None:
+    body = {
+        "mission_id": ready["id"],
+        "link_loss": "continue",
+        "nonce": client.get("/api/drive/nonce").json()["nonce"],
+    }
+    assert client.post("/api/runs", json=body).status_code == 201
+    again = client.post("/api/runs", json=body)
+    assert again.status_code == 409
+    assert client.post("/api/runs", json=body | {"nonce": "made up"}).status_code == 409
+    assert robot.kinds().count(RequestKind.START) == 1
+
+
+def test_a_refused_start_tells_every_reason_and_leaves_nothing(
+    client: TestClient, robot: PlayedRobot, ready: dict[str, Any], station: Station
+) -> None:
+    robot.refusals = ("The emergency stop is pressed.", "The battery is empty.")
+    answer = start(client, ready)
+    assert answer.status_code == 409
+    assert answer.json()["reasons"] == list(robot.refusals)
+    assert client.get("/api/runs").json() == []
+    assert list(station.settings.run_dir.glob("*.mcap")) == []
+    assert RequestKind.STOP not in robot.kinds()
+
+
+def test_all_reasons_come_at_once(client: TestClient, robot: PlayedRobot, ready: dict[str, Any]) -> None:
+    robot.site_id = "f" * 16
+    broken = {"version": 1, "mission": ready["mission"] | {"visits": [{"row_id": "gone"}]}}
+    client.put(f"/api/missions/{ready['id']}", json=broken)
+    reasons: list[str] = []
+
+    def told() -> bool:  # the farm is asked for once a second
+        reasons[:] = start(client, ready).json()["reasons"]
+        return any("another farm" in reason for reason in reasons)
+
+    assert until(told)
+    assert len(reasons) >= 2
+    assert RequestKind.START not in robot.kinds()
+
+
+@pytest.mark.parametrize("state", list(RunState))
+def test_stop_reaches_guard_and_navigator_in_every_state(
+    client: TestClient, robot: PlayedRobot, state: RunState
+) -> None:
+    robot.state = state
+    for times in (1, 2):
+        answer = client.post("/api/runs/current/stop")
+        assert answer.status_code == 200
+        assert answer.json()["guard"] is True
+        assert robot.stops == times
+    assert until(lambda: robot.kinds().count(RequestKind.STOP) >= 1)
+
+
+def test_pause_resume_and_acknowledge_reach_the_navigator(
+    client: TestClient, robot: PlayedRobot, ready: dict[str, Any]
+) -> None:
+    start(client, ready)
+    for action, state in (("pause", RunState.PAUSED), ("resume", RunState.DRIVING)):
+        assert client.post(f"/api/runs/current/{action}").json() == {"accepted": True}
+        assert robot.state is state
+    assert client.post("/api/runs/current/dance").status_code == 422
+
+
+def test_a_run_is_summed_up_logged_and_downloaded(
+    client: TestClient, robot: PlayedRobot, ready: dict[str, Any]
+) -> None:
+    run_id = start(client, ready).json()["id"]
+    address = f"/api/runs/{run_id}"
+    assert until(lambda: client.get(address).json()["distance_m"] > 0.5)
+    robot.state = RunState.FINISHED
+    assert until(lambda: client.get(address).json()["outcome"] == "finished")
+    run = client.get(address).json()
+    assert run["mean_lateral_error"] == pytest.approx(0.03, abs=1e-6)  # m
+    assert run["ended"] is not None
+    assert [e["text"] for e in run["events"] if e["kind"] == "state"][-1] == "finished"
+    assert run["log_bytes"] > 0
+    track = client.get(f"{address}/track")
+    assert track.status_code == 200, track.text
+    columns = track.json()
+    assert len({len(columns[name]) for name in ("t_s", "x", "mode", "lateral_error")}) == 1
+    assert columns["x"][-1] > 0.5
+    for form, beginning in (("mcap", b"\x89MCAP0\r\n"), ("csv", b"t_s,"), ("geojson", b"{"), ("gpx", b"<?xml")):
+        answer = client.get(f"{address}/download", params={"format": form})
+        assert answer.status_code == 200, answer.text
+        assert answer.content.startswith(beginning)
+        assert f"run-{run_id}.{form}" in answer.headers["content-disposition"]
+    assert client.get(f"{address}/camera", params={"t_s": 1.0}).status_code == 404
+    part = client.get(f"{address}/download", headers={"Range": "bytes=0-7"})
+    assert (part.status_code, part.content) == (206, b"\x89MCAP0\r\n")
+    bomb = client.get(f"{address}/download", headers={"Range": "bytes=" + ",".join(["0-1"] * 5000)})
+    assert bomb.status_code in (200, 206, 400, 416)
+    assert len(bomb.content) < 10 * run["log_bytes"] + 1_000_000
+    stations_words = client.get(f"{address}/download", params={"format": "exe"})
+    assert stations_words.status_code == 422
+
+
+def test_a_mission_cannot_start_without_a_robot(
+    client: TestClient, robot: PlayedRobot, ready: dict[str, Any]
+) -> None:
+    robot.close()
+    assert until(lambda: not client.get("/api/robot").json()["connected"])
+    answer = start(client, ready)
+    assert answer.status_code == 409
+    assert any("not connected" in reason for reason in answer.json()["reasons"])
+    stop = client.post("/api/runs/current/stop").json()
+    assert stop["guard"] is False
+    assert "emergency stop" in stop["message"]
