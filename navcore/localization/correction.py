@@ -46,4 +46,5 @@ def inverse(S: Floats) -> Floats:
         reciprocal: Floats = np.divide(1.0, S)
         return reciprocal
     (a, b), (c, d) = S.tolist()
-    return np.array(((d, -b), (-c, a)), dtype=np.float64) / (a * d - b * c)
+    turned: Floats = np.array(((d, -b), (-c, a))) / (a * d - b * c)
+    return turned
