@@ -81,18 +81,26 @@ def read_typed(path: Path, topic: str, type_: type[T]) -> Iterator[T]:
 
 
 def read_inputs(path: Path) -> Iterator[NavInputs]:
-    """What the navigator consumed during the run, tick by tick. Raises LogError."""
-    return read_typed(path, NAV_INPUTS.name, NavInputs)
+    """What the navigator consumed since the run's prelude, tick by tick. Raises LogError."""
+    start_ns = _start_ns(path)
+    return (inputs for inputs in read_typed(path, NAV_INPUTS.name, NavInputs) if inputs.now_ns >= start_ns)
 
 
 def read_decisions(path: Path) -> Iterator[Decision]:
-    """What the navigator decided, tick by tick. Raises LogError."""
-    return read_typed(path, NAV_DECISION.name, Decision)
+    """What the navigator decided since the run's prelude, tick by tick. Raises LogError."""
+    start_ns = _start_ns(path)
+    return (decision for decision in read_typed(path, NAV_DECISION.name, Decision) if decision.stamp_ns >= start_ns)
 
 
 def read_prelude(path: Path) -> NavPrelude | None:
     """What the navigator had consumed before the run, with its settings; None in a log without."""
     return next(read_typed(path, NAV_PRELUDE.name, NavPrelude), None)
+
+
+def _start_ns(path: Path) -> int:
+    """Monotonic time of the tick that began the run; the recorder listens from a little earlier."""
+    prelude = read_prelude(path)
+    return 0 if prelude is None else prelude.stamp_ns
 
 
 def _records(path: Path) -> Iterator[McapRecord]:

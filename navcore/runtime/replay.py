@@ -35,10 +35,19 @@ class ReplayResult:
 
 
 def replay(
-    config: RobotConfig, datum: Datum, inputs: Iterable[NavInputs], decisions: Iterable[Decision]
+    config: RobotConfig,
+    datum: Datum,
+    inputs: Iterable[NavInputs],
+    decisions: Iterable[Decision],
+    prelude: Iterable[NavInputs] = (),
 ) -> ReplayResult:
-    """Step a fresh navigator through the recorded inputs and compare each decision byte for byte."""
+    """Step a fresh navigator through the recorded inputs and compare each decision byte for byte.
+
+    `prelude` is what it had consumed before the recorded ticks; those decisions are not compared.
+    """
     navigator = config.new_navigator(datum)
+    for taken in prelude:
+        navigator.step(taken.now_ns, taken)
     ticks = 0
     for taken, decided in zip(inputs, decisions, strict=False):
         again = encode(navigator.step(taken.now_ns, taken))
