@@ -17,8 +17,8 @@ class CaptureClockParams:
     """Parameters of `CaptureClock`.
 
     Attributes:
-        shortest_delay_s: from the antenna's epoch to the first byte at our door at the very best; 0 to 1 s. 0.1 s is an
-            assumption for RTK receivers at 5 to 10 Hz; measure it with the receiver's pulse per second.
+        shortest_delay_s: from the antenna's epoch to the first byte at our door at the very best; 0 to 1 s. 0.1 s is
+            an assumption for RTK receivers at 5 to 10 Hz; measure it with the receiver's pulse per second.
         drift_ppm: by how much the monotonic clock may run apart from GNSS time; the minimum leaks upwards at this
             rate; 1 to 1000. Quartz is within 50.
         latest_s: a packet later than this is no evidence and, repeated, a jump of the receiver's time; 0.1 to 10 s.
