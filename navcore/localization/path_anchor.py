@@ -21,17 +21,20 @@ class PathAnchorParams:
     """Parameters of `PathAnchor`.
 
     Attributes:
-        slide: how fast the followed path may move sideways or along, m/s, > 0.
+        slide: how fast the followed path may move sideways, m/s, > 0.
+        slide_along: how fast it may move along the driving direction, m/s, > 0.
         turn: how fast it may turn, rad/s, > 0.
         growth_lateral: 1-sigma of the lateral drift of odometry, m per square root of m driven, > 0.
         growth_heading: 1-sigma of the heading drift, rad per square root of m driven, > 0.
         map_lateral: 1-sigma of where a drawn row lies, m (survey by orthophoto: 0.3 to 0.8 m).
         map_heading: 1-sigma of its direction, rad.
         map_along: 1-sigma of where it begins and ends, m.
+        gate: a row end that lies further off than so many 1-sigma is not believed.
         growth_along: 1-sigma of the drift along the path, m per square root of m driven (wheel slip).
     """
 
     slide: float = 0.15
+    slide_along: float = 0.5
     turn: float = 0.10
     growth_lateral: float = 0.02
     growth_heading: float = 0.005
@@ -39,6 +42,7 @@ class PathAnchorParams:
     map_heading: float = 0.03
     map_along: float = 0.8
     growth_along: float = 0.15
+    gate: float = 3.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,6 +105,8 @@ class PathAnchor:
     def see_along(self, row: RowLine, T_odom_drive: SE2, along: float, std: float) -> None:
         """Correct the position along the row: `along` is the row coordinate x of the driving frame, m."""
         at = row.coordinates(self.T_map_odom @ T_odom_drive)
+        if abs(along - at.x) > self.params.gate * math.hypot(math.sqrt(self.var_along), std):
+            return
         gain = self.var_along / (self.var_along + std**2)
         self.var_along *= 1.0 - gain
         self._set(row.pose(SE2(at.x + gain * (along - at.x), at.y, at.yaw)), T_odom_drive)
@@ -110,11 +116,11 @@ class PathAnchor:
 
     def slide(self, T_odom_drive: SE2, dt: float) -> SE2:
         """Move the followed tie towards the wanted one for `dt` seconds; the followed pose of the driving frame."""
-        at, wanted = self.followed @ T_odom_drive, self.T_map_odom @ T_odom_drive
-        dx, dy, dyaw = wanted.x - at.x, wanted.y - at.y, wrap(wanted.yaw - at.yaw)
-        share = _share(math.hypot(dx, dy), self.params.slide * dt)
-        turn = dyaw * _share(abs(dyaw), self.params.turn * dt)
-        pose = SE2(at.x + share * dx, at.y + share * dy, wrap(at.yaw + turn))
+        at = self.followed @ T_odom_drive
+        off = at.inverse() @ self.T_map_odom @ T_odom_drive
+        p = self.params
+        step = SE2(_within(off.x, p.slide_along * dt), _within(off.y, p.slide * dt), _within(off.yaw, p.turn * dt))
+        pose = at @ step
         self.followed = pose @ T_odom_drive.inverse()
         return pose
 
@@ -123,6 +129,5 @@ class PathAnchor:
         self.followed = self.T_map_odom
 
 
-def _share(distance: float, step: float) -> float:
-    """Part of a distance that one step covers."""
-    return 1.0 if distance <= step else step / distance
+def _within(value: float, limit: float) -> float:
+    return min(max(value, -limit), limit)

@@ -23,12 +23,12 @@ CONFIG = RobotConfig()
 
 @pytest.fixture
 def farm() -> SiteMap:
-    """Four rows of 40 m, 3 m apart, a headland with a road before them, a warehouse at the road."""
+    """Four rows of 25 m, 3 m apart, a headland with a road before them, a warehouse at the road."""
     rows = tuple(
-        Row(id=f"r{i}", name=f"Row {i + 1}", start=(20.0 + 3.0 * i, 0.0), end=(20.0 + 3.0 * i, 40.0))
+        Row(id=f"r{i}", name=f"Row {i + 1}", start=(20.0 + 3.0 * i, 0.0), end=(20.0 + 3.0 * i, 25.0))
         for i in range(4)
     )
-    road = Lane(id="road", points=((0.0, -12.0), (14.0, -12.0), (32.0, -12.0)), width=4.0)
+    road = Lane(id="road", points=((10.0, -12.0), (32.0, -12.0)), width=4.0)
     return SiteMap(
         name="Small farm",
         datum=Datum(lat_deg=31.4, lon_deg=120.9, height_m=8.0),
