@@ -107,19 +107,21 @@ def nearest(stretches: Floats, x: float, y: float, rows: int, columns: int) -> N
         j0, j1 = int((min(x0, x1) - REACH_M - x) / CELL_M), int((max(x0, x1) + REACH_M - x) / CELL_M)
         for i in range(max(i0, 0), min(i1 + 1, rows)):
             for j in range(max(j0, 0), min(j1 + 1, columns)):
-                d = away(x0, y0, c, s, length, x + (j + 0.5) * CELL_M, y + (i + 0.5) * CELL_M)
+                d = away(x0, y0, c, s, length, x + (j + 0.5) * CELL_M, y + (i + 0.5) * CELL_M)[0]
                 if d < best[i, j]:
                     best[i, j], index[i, j] = d, k
     return index
 
 
 @inlined
-def away(x0: float, y0: float, c: float, s: float, length: float, x: float, y: float) -> float:
-    """Distance of a point from a stretch that starts at (x0, y0) and runs along (c, s), m."""
+def away(x0: float, y0: float, c: float, s: float, length: float, x: float, y: float) -> tuple[float, float]:
+    """Distance of a point from a stretch that starts at (x0, y0) and runs along (c, s), and how far it is past its
+    ends, m.
+    """
     dx, dy = x - x0, y - y0
     along, left = dx * c + dy * s, dy * c - dx * s
     over = max(-along, along - length, 0.0)
-    return math.sqrt(over * over + left * left)
+    return math.sqrt(over * over + left * left), over
 
 
 @compiled
@@ -151,12 +153,12 @@ def lay_ground(view: View, light: Light, layers: Layers, ground: Ground, atlas: 
             if 0 <= i < line.shape[0] and 0 <= j < line.shape[1]:
                 k = road[i, j]
                 if k >= 0:
-                    to_road = away(roads[k, 0], roads[k, 1], roads[k, 2], roads[k, 3], roads[k, 4], px, py)
+                    to_road = away(roads[k, 0], roads[k, 1], roads[k, 2], roads[k, 3], roads[k, 4], px, py)[0]
                     to_road += ragged - roads[k, 5]
                 k = line[i, j]
                 if k >= 0:
-                    to_plants = away(lines[k, 0], lines[k, 1], lines[k, 2], lines[k, 3], lines[k, 4], px, py)
-                    reach = lines[k, 5]
+                    to_plants, over = away(lines[k, 0], lines[k, 1], lines[k, 2], lines[k, 3], lines[k, 4], px, py)
+                    reach = lines[k, 5] + over
             material = cover(to_road, to_plants, reach, ragged, ground.grassy, coarse, middle, fine)
             start, side = places[material, level, 0], places[material, level, 1]
             tx, ty = int(px * TEXTURES_PER_M * side + HIGH), int(py * TEXTURES_PER_M * side + HIGH)

@@ -68,7 +68,7 @@ def daylight(light: LightParams) -> Lighting:
     )
     through = 1.0 - 0.97 * min(max(0.0, light.cloud - 0.5) * 2.0, 1.0)
     low = math.exp(-4.0 * el)
-    warm = np.array((1.0, 0.93 - 0.14 * low, 0.82 - 0.36 * low))
+    warm = np.array((1.0, 0.95 - 0.16 * low, 0.88 - 0.42 * low))
     ambient = np.array((0.42, 0.47, 0.56)) * (1.0 + 1.5 * max(0.0, light.cloud - 0.5)) * (1.0 - 0.4 * low)
     if light.night:
         sun, through, ambient = np.zeros(3), 0.0, np.array((0.010, 0.011, 0.015))

@@ -27,7 +27,7 @@ def rasterise(
     depth: Floats32, albedo: Bytes, shine: Floats32, tags: Tags,
 ) -> None:  # fmt: skip
     """Draw the first `count` quadrilaterals of a queue into the layers."""
-    screen, plane = np.zeros((6, 6)), np.zeros((6, 2))
+    screen, plane = np.zeros((6, 7)), np.zeros((6, 2))
     for k in range(count):
         n = to_screen(view, corners, k, screen)
         if n >= 3 and slopes(screen, n, plane):
@@ -63,16 +63,23 @@ def project(view: View, corners: Floats, k: int, i: int, j: int, t: float, scree
 
 @inlined
 def slopes(screen: Floats, n: int, plane: Floats) -> bool:
-    """Change per pixel right and down of each linear quantity 2..5, into plane (6, 2); False if edge-on."""
+    """Change per pixel right and down of each linear quantity 2..5, into plane (6, 2), and of x along each edge per
+    pixel down, into column 6 of the screen's corners; False if edge-on.
+    """
+    for i in range(n):
+        j = i + 1 if i + 1 < n else 0
+        drop = screen[j, 1] - screen[i, 1]
+        screen[i, 6] = (screen[j, 0] - screen[i, 0]) / drop if drop != 0.0 else 0.0
     for k in range(1, n - 1):
         ax, ay = screen[k, 0] - screen[0, 0], screen[k, 1] - screen[0, 1]
         bx, by = screen[k + 1, 0] - screen[0, 0], screen[k + 1, 1] - screen[0, 1]
         area = ax * by - ay * bx
         if abs(area) > 1e-6:
+            inverse = 1.0 / area
             for q in range(2, 6):
                 g, h = screen[k, q] - screen[0, q], screen[k + 1, q] - screen[0, q]
-                plane[q, 0] = (g * by - h * ay) / area
-                plane[q, 1] = (h * ax - g * bx) / area
+                plane[q, 0] = (g * by - h * ay) * inverse
+                plane[q, 1] = (h * ax - g * bx) * inverse
             return True
     return False
 
@@ -84,8 +91,7 @@ def span(screen: Floats, n: int, y: float) -> tuple[float, float]:
     for i in range(n):
         j = i + 1 if i + 1 < n else 0
         if (screen[i, 1] <= y) != (screen[j, 1] <= y):
-            t = (y - screen[i, 1]) / (screen[j, 1] - screen[i, 1])
-            x = screen[i, 0] + t * (screen[j, 0] - screen[i, 0])
+            x = screen[i, 0] + (y - screen[i, 1]) * screen[i, 6]
             left, right = min(left, x), max(right, x)
     return left, right
 

@@ -88,7 +88,7 @@ def draw_tile(
     chunks: Chunks, near: NDArray[np.int64], shear: Floats, corner: Floats, atlas: Atlas, height: Heights
 ) -> None:
     """Draw the listed chunks into one tile whose lower left ground corner is given."""
-    screen, plane = np.zeros((4, 6)), np.zeros((6, 2))
+    screen, plane = np.zeros((4, 7)), np.zeros((6, 2))
     texels, places = atlas.texels, atlas.places
     for c in near:
         first = chunks.span[c]

@@ -96,10 +96,10 @@ def put(
 def leaf_detail(z: float) -> tuple[float, float]:
     """Share of the cards that are drawn at a distance, and how much larger each."""
     if z > 55.0:
-        return 0.15, 2.3
-    if z > 32.0:
-        return 0.28, 1.75
-    return (0.55, 1.3) if z > 16.0 else (1.0, 1.0)
+        return 0.10, 2.7
+    if z > 30.0:
+        return 0.22, 1.95
+    return (0.48, 1.4) if z > 15.0 else (1.0, 1.0)
 
 
 @inlined

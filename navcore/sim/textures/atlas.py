@@ -69,7 +69,7 @@ def build_atlas(orchard: Orchard) -> Atlas:
 def _pictures(orchard: Orchard, rng: np.random.Generator) -> dict[Material, Texels]:
     greenness = float(np.clip(_GREENNESS[orchard.season] + rng.normal(0, 0.2), 0.05, 1.0))
     warmth, bright = rng.normal(0.0, 8.0), rng.uniform(0.8, 1.15)
-    earth = rgb(126 * bright + warmth, 104 * bright, 80 * bright - warmth)
+    earth = rgb(124 * bright + warmth, 108 * bright, 90 * bright - warmth)
     pictures = dict(
         zip((Material.LEAVES_A, Material.LEAVES_B, Material.LEAVES_C), _leaves(orchard, rng), strict=True)
     )

@@ -18,6 +18,7 @@ from navcore.sim.camera_labels import LabelParams, RenderedObject
 from navcore.sim.camera_light import LightName, LightParams, named_light
 from navcore.sim.camera_renderer import CameraRenderer, RenderedFrame, RenderParams, Scene
 from navcore.sim.orchard import Orchard, OrchardParams, Season, Trellis, build_orchard
+from navcore.sim.render.ground import GroundTint
 
 DATUM = Datum(lat_deg=41.0, lon_deg=-5.0, height_m=700.0)
 LABELLED = RenderParams(labels=LabelParams())
@@ -174,6 +175,17 @@ def test_road_and_shed_stand_out_from_the_field() -> None:
     image = shot(build_orchard(site, OrchardParams()), at(10.0)).image.astype(int)
     road, field = image[300:, 280:360].mean(axis=(0, 1)), image[200:230, :60].mean(axis=(0, 1))
     assert np.abs(road - field).max() > 10.0
+
+
+def test_the_ground_takes_the_colours_of_the_orthophoto() -> None:
+    bare = build_orchard(SiteMap(name="bare", datum=DATUM), OrchardParams())
+    red = np.full((80, 80, 3), (200, 40, 40), dtype=np.uint8)
+    red[:, 40:] = (40, 40, 200)
+    scene = Scene(bare, QUIET, GroundTint(colour=red, x=-40.0, y=-40.0, per_m=1.0))
+    west = CameraRenderer(bare, robot_camera(), QUIET, scene=scene).render(at(-30.0), 0).image[300:].mean(axis=(0, 1))
+    east = CameraRenderer(bare, robot_camera(), QUIET, scene=scene).render(at(5.0), 0).image[300:].mean(axis=(0, 1))
+    assert west[2] > west[0] + 30.0
+    assert east[0] > east[2] + 30.0
 
 
 def test_an_empty_site_is_ground_and_sky() -> None:

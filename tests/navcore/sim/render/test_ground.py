@@ -26,8 +26,8 @@ def test_the_alley_is_grass_on_a_grassy_farm_and_bare_on_a_dry_one() -> None:
 @given(x=st.floats(-20, 20), y=st.floats(-20, 20), angle=st.floats(-3, 3))
 def test_distance_from_a_stretch_is_zero_on_it_and_never_less_than_sideways(x: float, y: float, angle: float) -> None:
     c, s = float(np.cos(angle)), float(np.sin(angle))
-    assert away(1.0, 2.0, c, s, 10.0, 1.0 + 5 * c, 2.0 + 5 * s) == pytest.approx(0.0, abs=1e-9)
-    assert away(1.0, 2.0, c, s, 10.0, x, y) >= abs((y - 2.0) * c - (x - 1.0) * s) - 1e-9
+    assert away(1.0, 2.0, c, s, 10.0, 1.0 + 5 * c, 2.0 + 5 * s)[0] == pytest.approx(0.0, abs=1e-9)
+    assert away(1.0, 2.0, c, s, 10.0, x, y)[0] >= abs((y - 2.0) * c - (x - 1.0) * s) - 1e-9
 
 
 def test_each_cell_knows_its_nearest_stretch() -> None:
