@@ -5,11 +5,13 @@ from __future__ import annotations
 import typer
 
 from navcore.cli import dataset, evaluate, run, train
+from navcore.cli.bench import bench_app
 from navcore.cli.decode import decode_app
 
 app = typer.Typer(
     name="rowpilot", help="Onboard operator station for orchard and vineyard robots.", no_args_is_help=True
 )
+app.add_typer(bench_app, name="bench")
 app.add_typer(decode_app, name="decode")
 dataset.register(app)
 evaluate.register(app)

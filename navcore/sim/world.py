@@ -100,6 +100,7 @@ class World:
     Attributes:
         site: the true site, perturbed from the drawn one. orchard: what stands on it.
         faults: what is broken now.
+        touched: all contacts so far.
     """
 
     def __init__(self, site: SiteMap, vehicle: VehicleParams, params: WorldParams, start_ns: int = 0) -> None:
@@ -110,6 +111,7 @@ class World:
         self.site = perturb(site, params.map_error, map_rng)
         self.orchard: Orchard = build_orchard(self.site, replace(params.orchard, seed=params.seed))
         self.faults = WorldFaults()
+        self.touched: list[SimContact] = []
         self._terrain = Terrain(self.site, params.terrain, ground_rng)
         pose = _parked(self.site, params, park_rng)
         self._drive = VehicleDynamics(vehicle, params.dynamics, params.payload, pose, drive_rng)
@@ -209,6 +211,7 @@ class World:
         arrived = [s for s in self._imu_sent if s.stamp_ns + self._imu_latency_ns <= now_ns]
         self._imu_sent = self._imu_sent[len(arrived) :]
         contacts, self._contacts = tuple(self._contacts), []
+        self.touched += contacts
         if self.faults.wheels_frozen:
             self._wheels = replace(self._wheels, stamp_ns=self._now_ns)
         else:

@@ -1,0 +1,92 @@
+"""`rowpilot bench mission`: many whole missions in lockstep, in parallel, resumable."""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+import platform
+import subprocess
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+from navcore.bench.mission_cases import CaseParams, MissionCase, mission_cases
+from navcore.bench.mission_result import MissionResult, append_result, missing, read_results, run_case
+
+RESULTS = "missions.jsonl"
+# One thread each: two missions side by side keep two cores busy as they are.
+_ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Bench:
+    """What was measured, on what.
+
+    Attributes:
+        commit: of the working tree, with "+" if it was changed; "unknown" outside a repository.
+    """
+
+    results: tuple[MissionResult, ...]
+    commit: str
+    machine: str
+
+
+def run_bench(
+    params: CaseParams, folder: Path, *, processes: int = 2, progress: Callable[[MissionResult, int], None]
+) -> Bench:
+    """Drive what is not yet in the folder; each result is written at once, and told with how many are left."""
+    folder.mkdir(parents=True, exist_ok=True)
+    cases = mission_cases(params)
+    done = read_results(folder / RESULTS)
+    left = missing(cases, done)
+    for result in _driven(left, processes):
+        append_result(folder / RESULTS, result)
+        done[result.case.id] = result
+        progress(result, len(missing(cases, done)))
+    return Bench(results=tuple(done[c.id] for c in cases), commit=_commit(), machine=_machine())
+
+
+def _driven(cases: list[MissionCase], processes: int) -> Iterator[MissionResult]:
+    if processes <= 1 or len(cases) <= 1:
+        yield from map(run_case, cases)
+        return
+    # Fresh interpreters: forked ones would share the state of compiled code and thread pools.
+    with _single_threaded(), multiprocessing.get_context("spawn").Pool(processes, maxtasksperchild=8) as pool:
+        yield from pool.imap_unordered(run_case, cases)
+
+
+@contextmanager
+def _single_threaded() -> Iterator[None]:
+    before = {name: os.environ.get(name) for name in _ONE_THREAD}
+    os.environ.update(dict.fromkeys(_ONE_THREAD, "1"))
+    try:
+        yield
+    finally:
+        for name, value in before.items():
+            if value is None:
+                del os.environ[name]
+            else:
+                os.environ[name] = value
+
+
+def _commit() -> str:
+    def git(*arguments: str) -> str:
+        here = Path(__file__).parent
+        found = subprocess.run(["git", *arguments], cwd=here, capture_output=True, text=True, check=True)
+        return found.stdout.strip()
+
+    try:
+        return git("rev-parse", "--short", "HEAD") + ("+" if git("status", "--porcelain", "-uno") else "")
+    except (OSError, subprocess.CalledProcessError):
+        return "unknown"
+
+
+def _machine() -> str:
+    """Processor and number of cores, as far as the system tells."""
+    name = platform.processor() or platform.machine()
+    cpuinfo = Path("/proc/cpuinfo")
+    if cpuinfo.exists():
+        models = [a.partition(":")[2].strip() for a in cpuinfo.read_text().splitlines() if a.startswith("model name")]
+        name = models[0] if models else name
+    return f"{name}, {os.cpu_count()} cores, {platform.system()} {platform.release()}"

@@ -1,0 +1,99 @@
+"""`rowpilot bench`: figures, each printed by the verb that measures it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+if TYPE_CHECKING:
+    from navcore.bench.mission import Bench
+    from navcore.bench.mission_figures import Figure
+    from navcore.bench.mission_result import MissionResult
+
+BAD_INPUT = 2
+bench_app = typer.Typer(help="Measure the robot.", no_args_is_help=True)
+
+
+@bench_app.callback()
+def verbs() -> None:
+    """Keeps each bench a verb of its own."""
+
+
+@bench_app.command("mission")
+def bench_mission(
+    quick: Annotated[
+        bool, typer.Option("--quick", help="Farms 0 and 1 only, a third of seasons and lights.")
+    ] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="One JSON object with figures, commit, machine.")] = False,
+    resume: Annotated[
+        Path | None, typer.Option(metavar="FOLDER", help="Keep the missions here, and go on with what is here.")
+    ] = None,
+    processes: Annotated[int, typer.Option(min=1, max=64, help="Missions driven side by side.")] = 2,
+    farms: Annotated[
+        str, typer.Option(help="scoring, or tuning: farms that parameters may be tuned on.")
+    ] = "scoring",
+    eye: Annotated[str, typer.Option(help="pixels, or truth: boxes from the truth, faster.")] = "pixels",
+) -> None:
+    """Whole missions in simulated time on farms unseen in tuning, with everything unkind on, and on GNSS alone."""
+    import tempfile
+
+    from navcore.bench.mission import run_bench
+    from navcore.bench.mission_cases import CaseParams, EyeKind, Farms
+    from navcore.errors import InputError
+
+    try:
+        params = CaseParams(source=Farms(farms), eye=EyeKind(eye), quick=quick)
+    except ValueError as error:
+        raise typer.BadParameter(str(error)) from None
+    folder = resume or Path(tempfile.mkdtemp(prefix="rowpilot-bench-"))
+    typer.echo(f"Missions are kept in {folder}", err=True)
+    try:
+        bench = run_bench(params, folder, processes=processes, progress=_progress)
+    except InputError as error:
+        typer.echo(str(error), err=True)
+        raise typer.Exit(BAD_INPUT) from None
+    typer.echo(_json(bench, quick) if as_json else _table(bench))
+
+
+def _progress(result: MissionResult, left: int) -> None:
+    typer.echo(f"{left:4d} left  {result.case.id}: {result.state}{_blemish(result)} {result.why}", err=True)
+
+
+def _blemish(result: MissionResult) -> str:
+    """What spoils a mission that finished."""
+    if result.evaluation is None or result.clean:
+        return ""
+    found = [*result.evaluation.contacts, *(f"wrong row {row}" for row in result.evaluation.wrong_rows)]
+    return f" ({', '.join(found)})" if found else ""
+
+
+def _json(bench: Bench, quick: bool) -> str:
+    import dataclasses
+    import json
+
+    from navcore.bench.mission_figures import mission_figures
+
+    rows = [dataclasses.asdict(figure) for figure in mission_figures(bench.results)]
+    body = {"commit": bench.commit, "machine": bench.machine, "quick": quick, "figures": rows}
+    return json.dumps(body, indent=1, allow_nan=False)
+
+
+def _table(bench: Bench) -> str:
+    from navcore.bench.mission_figures import mission_figures
+
+    lines = [f"commit {bench.commit}, {bench.machine}", ""]
+    lines += [_row(figure) for figure in mission_figures(bench.results)]
+    return "\n".join(lines)
+
+
+def _row(f: Figure) -> str:
+    value = "-" if f.value is None else f"{f.value:.3f}"
+    interval = "" if f.low is None or f.high is None else f" [{f.low:.3f}, {f.high:.3f}]"
+    asides = [
+        f"{name} {number:g}" for name, number in (("paper", f.paper), ("baseline", f.baseline), ("target", f.target))
+        if number is not None
+    ]  # fmt: skip
+    verdict = "" if f.ok is None else "ok" if f.ok else "MISSED"
+    return f"{f.figure:<60} {value + interval:>24} {f.unit:<6} n={f.n:<4} {', '.join(asides):<36} {verdict}"
