@@ -40,7 +40,19 @@ class RobotConfig:
 
     def new_navigator(self, datum: Datum) -> Navigator:
         """A navigator for a site with this datum."""
-        return Navigator(datum, self.navigator, self.vehicle_params())
+        vehicle = self.vehicle_params()
+        return Navigator(datum, _with_antenna(self.navigator, vehicle), vehicle)
+
+
+def _with_antenna(params: NavigatorParams, vehicle: VehicleParams) -> NavigatorParams:
+    """Where the antenna stands is a fact of the vehicle, told to all who need it."""
+    antenna = {"antenna_x": vehicle.antenna_x, "antenna_y": vehicle.antenna_y}
+    gnss = dataclasses.replace(params.filter.gnss, **antenna)
+    return dataclasses.replace(
+        params,
+        filter=dataclasses.replace(params.filter, gnss=gnss),
+        check=dataclasses.replace(params.check, **antenna),
+    )
 
 
 def load_config(path: Path) -> RobotConfig:

@@ -13,7 +13,6 @@ from navcore.chassis.protocol import GuardRequest, GuardState, MotionCommand
 from navcore.control.progress import ProgressCheck, ProgressParams
 from navcore.control.speed_regulation import SpeedLimit
 from navcore.errors import InputError
-from navcore.geometry.angles import wrap
 from navcore.geometry.geodesy import EnuFrame
 from navcore.localization.attitude import Attitude, AttitudeParams
 from navcore.localization.independent_check import IndependentCheck, IndependentCheckParams
@@ -24,22 +23,20 @@ from navcore.messages import (
     LinkLossPolicy,
     ModeSwitch,
     NavInputs,
-    NavMode,
-    NavStatus,
     Reply,
     Request,
     RequestKind,
     RowObservation,
     RunState,
-    SegmentKind,
 )
 from navcore.mission.driver import Driver, DriverParams, Driving
-from navcore.mission.events import Event, EventFacts, EventParams, active_events, effects_of
+from navcore.mission.events import Event, EventParams, active_events, effects_of
 from navcore.mission.evidence import NS, GnssEvidence, GnssEvidenceParams
-from navcore.mission.pilot import CARRIED, Pilot, PilotParams, Position
+from navcore.mission.pilot import Pilot, PilotParams, Position
 from navcore.mission.senses import Senses
+from navcore.mission.situation import Situation, event_facts
 from navcore.mission.state_machine import MOVING, UNDER_WAY, Circumstances, Effect, next_state, refusal
-from navcore.mission.status import ActiveEvents
+from navcore.mission.status import ActiveEvents, nav_status
 from navcore.vehicle import PAPER_A, VehicleParams
 
 
@@ -78,11 +75,11 @@ class Navigator:
         self.state = RunState.IDLE
         self.run_id: str | None = None
         self.link_loss = LinkLossPolicy.CONTINUE
+        self.driving = Driving.standing()
+        self.state_since_ns = 0
+        self.heard_ns = 0
         self._events = ActiveEvents()
-        self._driving = Driving.standing()
         self._last_ns: int | None = None
-        self._state_since_ns = 0
-        self._heard_ns = 0
         self._seq = 0
 
     def step(self, now_ns: int, inputs: NavInputs) -> Decision:
@@ -93,7 +90,7 @@ class Navigator:
         switch = self._advance(at, inputs.rows, tick_s)
         replies, request = self._hear(at, inputs.requests)
         self._judge(at, tick_s, request)
-        self._driving = self._steer(now_ns)
+        self.driving = self._steer(now_ns)
         self._last_ns = now_ns
         return self._decide(now_ns, at, switch, replies, request)
 
@@ -154,12 +151,12 @@ class Navigator:
         distance = None
         if start is not None and at.T_map_base is not None:
             distance = math.dist(start, (at.T_map_base.x, at.T_map_base.y))
-        facts = self._facts(at, 0.0, distance)
+        facts = event_facts(self._situation(), at.now_ns, tick_s=0.0, stuck=False, start_distance=distance)
         on = active_events(facts, self.params.events)
         return tuple(event.text(facts) for event in on if Effect.NO_ENTRY in event.effects)
 
     def _obey(self, at: Position, request: Request) -> None:
-        self._heard_ns = at.now_ns
+        self.heard_ns = at.now_ns
         if request.kind is RequestKind.START:
             self.pilot = self._new_pilot(at, request)
             self.run_id, self.link_loss = request.run_id, request.link_loss
@@ -181,34 +178,16 @@ class Navigator:
         """What the events of the last tick allow."""
         return self.driver.slow_limit() if Effect.SLOW in self._events.effects else ()
 
-    def _facts(self, at: Position, tick_s: float, start_distance: float | None = None) -> EventFacts:
-        s, pilot, now_ns = self.senses, self.pilot, at.now_ns
-        since_s = (now_ns - self._state_since_ns) * NS
-        cap = s.check.cap(now_ns, on_gnss=pilot is not None and pilot.mode is NavMode.GNSS_PATH)
-        return EventFacts(
+    def _situation(self) -> Situation:
+        return Situation(
             state=self.state,
-            mode=pilot.mode if pilot else NavMode.IDLE,
-            tick_s=tick_s,
-            chassis=s.chassis,
-            chassis_age_s=s.chassis_age_s(now_ns),
-            system_age_s=s.system_age_s(now_ns),
-            pose_std=s.pose_std,
-            carried=pilot.carried if pilot else 0.0,
-            gnss_age_s=s.gnss.age_s(now_ns),
-            pose_cap=cap.speed,
-            pose_cap_reason=cap.reason,
-            row_age_s=pilot.row.age_s(now_ns) if pilot else None,
-            row_reason=pilot.row.reason if pilot else "",
-            lateral_error=pilot.projection.lateral if pilot else None,
-            captured=pilot.captured if pilot else True,
-            stuck=self._stuck(now_ns),
-            held_s=since_s if self.state is RunState.HOLDING else 0.0,
-            arming_s=since_s if self.state is RunState.STARTING else 0.0,
-            link_age_s=(now_ns - self._heard_ns) * NS,
+            since_ns=self.state_since_ns,
+            run_id=self.run_id,
             link_loss=self.link_loss,
-            zone=self._driving.zone,
-            start_distance=start_distance,
-            waiting_for_gnss=self._waits_for_gnss(),
+            heard_ns=self.heard_ns,
+            senses=self.senses,
+            pilot=self.pilot,
+            driving=self.driving,
         )
 
     def _stuck(self, now_ns: int) -> bool:
@@ -217,14 +196,9 @@ class Navigator:
             return False
         return self.progress.stuck(now_ns, self.pilot.route.driven(self.pilot.place))
 
-    def _waits_for_gnss(self) -> bool:
-        pilot = self.pilot
-        moving = self.state in (RunState.DRIVING, RunState.HOLDING)
-        return bool(moving and pilot and pilot.mode in CARRIED and pilot.segment.kind is SegmentKind.ROAD)
-
     def _judge(self, at: Position, tick_s: float, request: RequestKind | None) -> None:
         """Look all events up, and let their effects change the mission's state."""
-        facts = self._facts(at, tick_s)
+        facts = event_facts(self._situation(), at.now_ns, tick_s=tick_s, stuck=self._stuck(at.now_ns))
         events = active_events(facts, self.params.events)
         self._change_state(at.now_ns, events, request)
         self._events.update(at.now_ns, events, facts)
@@ -238,7 +212,7 @@ class Navigator:
         )
         after = next_state(self.state, c)
         if after is not self.state:
-            self.state, self._state_since_ns = after, now_ns
+            self.state, self.state_since_ns = after, now_ns
             if after is RunState.IDLE:
                 self.pilot = self.run_id = None
 
@@ -249,41 +223,11 @@ class Navigator:
         return Decision(
             stamp_ns=now_ns,
             command=self._command(now_ns),
-            status=self._status(now_ns),
+            status=nav_status(self._situation(), now_ns, self._events),
             switch=switch,
             camera=self.pilot.camera_request(at) if self.pilot and self.state in UNDER_WAY else None,
             guard_request=self._guard_request(request),
             replies=replies,
-        )
-
-    def _status(self, now_ns: int) -> NavStatus:
-        s, pilot = self.senses, self.pilot
-        driven = pilot.route.driven(pilot.place) if pilot else 0.0
-        return NavStatus(
-            stamp_ns=now_ns,
-            state=self.state,
-            mode=pilot.mode if pilot else NavMode.IDLE,
-            mode_reason=pilot.mode_reason if pilot else "no mission",
-            run_id=self.run_id,
-            segment=pilot.route.segment_number(pilot.place) if pilot else 0,
-            segments=len(pilot.route.plan.segments) if pilot else 0,
-            row_id=pilot.segment.row_id if pilot else None,
-            progress=driven / pilot.route.length if pilot else 0.0,
-            remaining=pilot.route.length - driven if pilot else 0.0,
-            lateral_error=pilot.projection.lateral if pilot else None,
-            heading_error=wrap(pilot.pose.yaw - pilot.projection.heading) if pilot else None,
-            v=s.pose.v if s.pose else 0.0,
-            omega=s.pose.omega if s.pose else 0.0,
-            speed_limit=self._driving.speed_limit,
-            speed_reason=self._driving.speed_reason,
-            pose=s.pose,
-            gnss_quality=s.gnss_quality,
-            gnss_age_s=s.gnss.age_s(now_ns),
-            row_age_s=pilot.row.age_s(now_ns) if pilot else None,
-            battery_v=s.chassis.voltage_v if s.chassis else None,
-            guard=s.chassis.guard.name.lower() if s.chassis else "silent",
-            guard_reason=s.chassis.guard_reason if s.chassis else "No word from the chassis.",
-            events=self._events.on,
         )
 
     def _command(self, now_ns: int) -> MotionCommand | None:
@@ -291,8 +235,8 @@ class Navigator:
         if not self.senses.armed:
             return None
         drives = self.state is RunState.DRIVING
-        v, omega = (self._driving.v, self._driving.omega) if drives else (0.0, 0.0)
-        evidence_ns = self._driving.deadline_ns if drives else now_ns + self.params.command_ms * 1_000_000
+        v, omega = (self.driving.v, self.driving.omega) if drives else (0.0, 0.0)
+        evidence_ns = self.driving.deadline_ns if drives else now_ns + self.params.command_ms * 1_000_000
         deadline_ns = min(evidence_ns, now_ns + self.params.command_ms * 1_000_000)
         self._seq += 1
         return MotionCommand(v=v, omega=omega, seq=self._seq, stamp_ns=now_ns, deadline_ns=deadline_ns)

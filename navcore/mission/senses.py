@@ -32,15 +32,15 @@ class Senses:
 
     def take(self, inputs: NavInputs) -> None:
         """Predict and correct with all that this tick consumed."""
+        for sample in inputs.imu:
+            self.filter.add_imu(sample)
+            self.attitude.add_imu(sample)
+            self.check.add_imu(sample)
         for state in inputs.chassis:
             self.chassis = state
             self.filter.add_chassis(state)
             self.attitude.add_speed(state.v)
             self.check.add_chassis(state)
-        for sample in inputs.imu:
-            self.filter.add_imu(sample)
-            self.attitude.add_imu(sample)
-            self.check.add_imu(sample)
         for fix in inputs.gnss:
             self.gnss.add(fix)
             self.filter.add_gnss(fix)

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from navcore.messages import ActiveEvent
+from navcore.geometry.angles import wrap
+from navcore.messages import ActiveEvent, NavStatus
 from navcore.mission.events import Event, EventFacts
+from navcore.mission.situation import Situation
 from navcore.mission.state_machine import Effect
 
 
@@ -27,3 +29,35 @@ class ActiveEvents:
             for event in events
         )
         self.effects = frozenset(effect for event in events for effect in event.effects)
+
+
+def nav_status(now: Situation, now_ns: int, events: ActiveEvents) -> NavStatus:
+    """The message for the operator."""
+    s, pilot, chassis = now.senses, now.pilot, now.senses.chassis
+    driven = pilot.route.driven(pilot.place) if pilot else 0.0
+    return NavStatus(
+        stamp_ns=now_ns,
+        state=now.state,
+        mode=now.mode,
+        mode_reason=pilot.mode_reason if pilot else "no mission",
+        run_id=now.run_id,
+        segment=pilot.route.segment_number(pilot.place) if pilot else 0,
+        segments=len(pilot.route.plan.segments) if pilot else 0,
+        row_id=pilot.segment.row_id if pilot else None,
+        progress=driven / pilot.route.length if pilot else 0.0,
+        remaining=pilot.route.length - driven if pilot else 0.0,
+        lateral_error=pilot.projection.lateral if pilot else None,
+        heading_error=wrap(pilot.pose.yaw - pilot.projection.heading) if pilot else None,
+        v=s.pose.v if s.pose else 0.0,
+        omega=s.pose.omega if s.pose else 0.0,
+        speed_limit=now.driving.speed_limit,
+        speed_reason=now.driving.speed_reason,
+        pose=s.pose,
+        gnss_quality=s.gnss_quality,
+        gnss_age_s=s.gnss.age_s(now_ns),
+        row_age_s=pilot.row.age_s(now_ns) if pilot else None,
+        battery_v=chassis.voltage_v if chassis else None,
+        guard=chassis.guard.name.lower() if chassis else "silent",
+        guard_reason=chassis.guard_reason if chassis else "No word from the chassis.",
+        events=events.on,
+    )

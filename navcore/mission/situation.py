@@ -1,0 +1,80 @@
+"""The mission's situation in one tick, and the facts of it that the event table looks at."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from navcore.messages import LinkLossPolicy, NavMode, RunState, SegmentKind
+from navcore.mission.driver import Driving
+from navcore.mission.events import EventFacts
+from navcore.mission.evidence import NS
+from navcore.mission.pilot import CARRIED, Pilot
+from navcore.mission.senses import Senses
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Situation:
+    """State of the mission, and all who know of it.
+
+    Attributes:
+        since_ns: when `state` began. heard_ns: when an operator's page was last heard of.
+        driving: what the driver wanted in the last tick.
+    """
+
+    state: RunState
+    since_ns: int
+    run_id: str | None
+    link_loss: LinkLossPolicy
+    heard_ns: int
+    senses: Senses
+    pilot: Pilot | None
+    driving: Driving
+
+    @property
+    def moving(self) -> bool:
+        """Driving, or holding for a moment."""
+        return self.state in (RunState.DRIVING, RunState.HOLDING)
+
+    @property
+    def mode(self) -> NavMode:
+        """The source driven on."""
+        return self.pilot.mode if self.pilot else NavMode.IDLE
+
+
+def event_facts(
+    now: Situation, now_ns: int, *, tick_s: float, stuck: bool, start_distance: float | None = None
+) -> EventFacts:
+    """All that the event table looks at."""
+    s, pilot, since_s = now.senses, now.pilot, (now_ns - now.since_ns) * NS
+    cap = s.check.cap(now_ns, on_gnss=now.mode is NavMode.GNSS_PATH)
+    return EventFacts(
+        state=now.state,
+        mode=now.mode,
+        tick_s=tick_s,
+        chassis=s.chassis,
+        chassis_age_s=s.chassis_age_s(now_ns),
+        system_age_s=s.system_age_s(now_ns),
+        pose_std=s.pose_std,
+        carried=pilot.carried if pilot else 0.0,
+        gnss_age_s=s.gnss.age_s(now_ns),
+        pose_cap=cap.speed,
+        pose_cap_reason=cap.reason,
+        row_age_s=pilot.row.age_s(now_ns) if pilot else None,
+        row_reason=pilot.row.reason if pilot else "",
+        lateral_error=pilot.projection.lateral if pilot else None,
+        captured=pilot.captured if pilot else True,
+        stuck=stuck,
+        held_s=since_s if now.state is RunState.HOLDING else 0.0,
+        arming_s=since_s if now.state is RunState.STARTING else 0.0,
+        link_age_s=(now_ns - now.heard_ns) * NS,
+        link_loss=now.link_loss,
+        zone=now.driving.zone,
+        start_distance=start_distance,
+        waiting_for_gnss=_waits_for_gnss(now),
+    )
+
+
+def _waits_for_gnss(now: Situation) -> bool:
+    """The row is left, the road begins, and GNSS is not good enough yet."""
+    pilot = now.pilot
+    return bool(now.moving and pilot and pilot.mode in CARRIED and pilot.segment.kind is SegmentKind.ROAD)
