@@ -45,7 +45,7 @@ class Connection:
 
 def connect(
     starts: Iterable[Option], goals: Iterable[Option], radii: tuple[float, ...], blocked: Blocked, *,
-    step: float = 0.25, longest: float = 60.0,
+    step: float = 0.3, longest: float = 30.0, tries: int = 200,
 ) -> Connection:  # fmt: skip
     """The cheapest free connection by arcs and straights; if none is free, the cheapest of all with its obstacle.
 
@@ -53,12 +53,13 @@ def connect(
         radii: of the arcs, widest first.
         blocked: first of poses (N, 3) where the body must not be, and what is there.
         longest: detours that are this much longer than the shortest way are not tried, m.
+        tries: so many ways are checked at most.
 
     Raises ValueError without options.
     """
     ranked = sorted(_candidates(list(starts), list(goals), radii), key=lambda c: c[0])
     best: Connection | None = None
-    for cost, start, goal, path in ranked:
+    for cost, start, goal, path in ranked[:tries]:
         if cost > ranked[0][0] + longest:
             break
         poses = path.poses(step)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,11 +33,13 @@ class Road:
     Attributes:
         name: completes "on the way ...", such as "from the warehouse to row 3".
         first_number: number that the operator sees at the first waypoint.
+        rerouted: ways round obstacles have been added to the waypoints.
     """
 
     name: str
     waypoints: tuple[Waypoint, ...]
     first_number: int = 1
+    rerouted: bool = False
 
 
 def add_road(
@@ -48,13 +50,16 @@ def add_road(
         direct = _connect(draft, options(departures), goals, params)
         way = _way_round(draft, departures[0].pose, goals[0].pose) if direct.obstacle else ()
         if way:
-            return add_road(draft, departures, Road(road.name, way, road.first_number), goals, params)
+            return add_road(draft, departures, replace(road, waypoints=way, rerouted=True), goals, params)
         _add_departure(draft, departures[int(direct.start.key)])
         _add_connection(draft, direct, f"on the way {road.name}", _DEFAULT_SPEED, params)
         return direct.goal
     line = _line_through(draft, road, departures[0].pose, goals[0].pose, params)
     joined = _connect(draft, options(departures), _along(line, 0.0, 1.0, line.length / 2, params), params)
     left = _connect(draft, _along(line, line.length, -1.0, line.length - joined.goal.key, params), goals, params)
+    rerouted = _rerouted(draft, departures[0].pose, goals[0].pose, road, joined, left)
+    if rerouted is not None:
+        return add_road(draft, departures, rerouted, goals, params)
     _add_departure(draft, departures[int(joined.start.key)])
     speeds = [w.speed for w in road.waypoints]
     _add_connection(draft, joined, f"on the way {road.name}, before waypoint {road.first_number}", speeds[0], params)
@@ -67,6 +72,16 @@ def add_road(
 def _way_round(draft: Draft, start: SE2, goal: SE2) -> tuple[Waypoint, ...]:
     corners = detour(draft.space, (start.x, start.y), (goal.x, goal.y)) or []
     return tuple(Waypoint(x=x, y=y, speed=_DEFAULT_SPEED) for x, y in corners)
+
+
+def _rerouted(draft: Draft, start: SE2, goal: SE2, road: Road, joined: Connection, left: Connection) -> Road | None:
+    """The road with ways round what stands before or after its waypoints; None if not needed or tried already."""
+    if road.rerouted or not (joined.obstacle or left.obstacle):
+        return None
+    first, last = road.waypoints[0], road.waypoints[-1]
+    before = _way_round(draft, start, SE2(first.x, first.y)) if joined.obstacle else ()
+    after = _way_round(draft, SE2(last.x, last.y), goal) if left.obstacle else ()
+    return replace(road, waypoints=(*before, *road.waypoints, *after), rerouted=True) if before or after else None
 
 
 def _connect(draft: Draft, starts: list[Option], goals: list[Option], params: PlanningParams) -> Connection:

@@ -206,3 +206,12 @@ def test_unconnected_lanes_are_a_reason() -> None:
     site = SiteMap(name="f", datum=site.datum, warehouse=site.warehouse, lanes=(site.lanes[0], far), rows=(row,))
     with pytest.raises(MissionError, match="No lane leads"):
         mission_for_row(site, "far", RowExit.REVERSE)
+
+
+def test_coming_out_where_no_lane_is_the_robot_drives_round_the_block() -> None:
+    site = farm()
+    site = replace(site, lanes=site.lanes[:1])
+    plan = plan_mission(site, mission_for_row(site, "R2", RowExit.THROUGH), PAPER_A)
+    assert_drivable(plan)
+    plants = shapely.MultiLineString([((x - 1.25, 0), (x - 1.25, 60)) for x in np.arange(0.0, 17.6, 2.5)])
+    assert swept(plan.segments, 0.1).disjoint(plants)
