@@ -170,7 +170,7 @@ def test_exposure_brightens_and_white_balance_tints(dormant: Orchard) -> None:
     assert red[..., 1].mean() == pytest.approx(plain[..., 1].mean(), abs=0.01)
 
 
-def test_road_and_shed_stand_out_from_the_field() -> None:
+def test_the_road_stands_out_from_the_field() -> None:
     site = SiteMap(name="road", datum=DATUM, lanes=(Lane(id="l", points=((0.0, 0.0), (60.0, 0.0))),))
     image = shot(build_orchard(site, OrchardParams()), at(10.0)).image.astype(int)
     road, field = image[300:, 280:360].mean(axis=(0, 1)), image[200:230, :60].mean(axis=(0, 1))
