@@ -130,7 +130,7 @@ def _frame(
     seen = visible[rng.random(len(visible)) >= p.drop_out]
     objects = [*_boxes(camera, pose.inverse().apply(seen), p, rng), *_false_boxes(camera, p, rng)]
     heading = -pose.yaw
-    offset = -pose.y * math.cos(pose.yaw)
+    offset = -pose.y
     left, right = (image_line(camera, offset=offset + s * p.width / 2, heading=heading) for s in (1, -1))
     to_end = float(plants[:, 0].max()) - pose.x
     return RecordedFrame(

@@ -78,7 +78,7 @@ def valid_rate(
 
 def candidates(frame: RecordedFrame, camera: PinholeCamera, params: RowPerceptionParams) -> CornerPoints:
     """The candidate points of a frame, as the chain makes them."""
-    corners = corner_points(frame.objects, camera.width_px)
+    corners = corner_points(frame.objects, camera.width_px, camera.height_px)
     mask = geometric_filter(
         corners.points, width_px=camera.width_px, height_px=camera.height_px, params=params.filter
     )  # fmt: skip

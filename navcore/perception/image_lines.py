@@ -25,14 +25,17 @@ def driving_camera(camera: PinholeCamera) -> PinholeCamera:
 def image_line(camera: PinholeCamera, *, offset: float, heading: float, pitch: float = 0.0) -> Line2:
     """Image of the ground line with that offset and heading in the driving frame, for a camera pitched so much more.
 
-    The two points lie 2 m and 20 m ahead of the camera, where a camera that looks along the row sees them.
+    A line's image is the normal of the plane through it and the camera's centre: of its direction, and of the way
+    from the camera to one of its points. Nothing is divided, so lines beside or behind the camera are no exception.
     """
-    tilted = replace(camera, pitch=camera.pitch + pitch)
     c, s = math.cos(heading), math.sin(heading)
-    along = np.array([2.0, 20.0]) + camera.x * c + camera.y * s
-    ground = np.column_stack((along * c - offset * s, along * s + offset * c, np.zeros(2)))
-    (u0, v0), (u1, v1) = tilted.project(ground)
-    return Line2.through((float(u0), float(v0)), (float(u1), float(v1)))
+    way = (-offset * s - camera.x, offset * c - camera.y, -camera.z)
+    normal = np.array((s * way[2], -c * way[2], c * way[1] - s * way[0]))
+    R = camera.R_base_camera() if pitch == 0.0 else replace(camera, pitch=camera.pitch + pitch).R_base_camera()
+    a, b, d = normal @ R
+    nx, ny = a / camera.fx, b / camera.fy
+    norm = math.hypot(nx, ny)
+    return away_from_camera(Line2(nx / norm, ny / norm, (nx * camera.cx + ny * camera.cy - d) / norm))
 
 
 def image_bisector(left: Line2, right: Line2) -> Line2 | None:

@@ -110,7 +110,7 @@ class RowPerception:
 
     def _corner_points(self, objects: tuple[DetectedObject, ...]) -> CornerPoints:
         sure = [o for o in objects if o.confidence >= self._params.min_confidence]
-        corners, c = corner_points(sure, self._camera.width_px), self._camera
+        corners, c = corner_points(sure, self._camera.width_px, self._camera.height_px), self._camera
         mask = geometric_filter(
             corners.points, width_px=c.width_px, height_px=c.height_px, params=self._params.filter
         )  # fmt: skip

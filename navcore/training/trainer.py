@@ -36,6 +36,7 @@ class TrainerParams:
         threshold: working threshold of the validation's recall, precision and feet.
         seed: of weights, order and augmentation.
         threads: of torch.
+        validation_pictures: every epoch is validated on so many, evenly drawn.
     """
 
     epochs: int = 15
@@ -46,6 +47,7 @@ class TrainerParams:
     threshold: float = 0.3
     seed: int = 1
     threads: int = 1
+    validation_pictures: int = 100
     net: FootNetParams = FootNetParams()
     loss: LossParams = LossParams()
     augment: AugmentParams = AugmentParams()
@@ -121,8 +123,8 @@ class Trainer:
         return float(value.detach())
 
     def _validate(self) -> Scores:
-        detector = TorchDetector(self._mean.module)
-        return evaluate(detector, self._validation, self._params.threshold)[0]
+        every = max(1, len(self._validation) // self._params.validation_pictures)
+        return evaluate(TorchDetector(self._mean.module), self._validation[::every], self._params.threshold)[0]
 
     def _keep(self, map50: float) -> None:
         if map50 > self._best:

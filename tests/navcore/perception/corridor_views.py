@@ -1,0 +1,57 @@
+"""Boxes of a known corridor as a flawless detector sees them, and a detector that gives what it is told."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from navcore.geometry.pinhole import PinholeCamera
+from navcore.geometry.se2 import SE2
+from navcore.messages import DetectedObject, ObjectKind
+from navcore.perception.detector import Image
+
+
+@dataclass
+class Told:
+    """A `Detector` that finds what it is told."""
+
+    objects: tuple[DetectedObject, ...] = field(default=())
+
+    def detect(self, image: Image) -> tuple[DetectedObject, ...]:
+        return self.objects
+
+
+def picture(camera: PinholeCamera) -> Image:
+    """Any picture with contrast."""
+    rng = np.random.default_rng(0)
+    return rng.integers(0, 255, (camera.height_px, camera.width_px, 3), dtype=np.uint8)
+
+
+def boxes_at(camera: PinholeCamera, feet: np.ndarray, reach: float = 12.0) -> tuple[DetectedObject, ...]:
+    """Boxes of trunks 8 cm thick and 1.2 m high at feet (N, 2) in `base_link`, those wholly inside the picture."""
+    objects = []
+    for x, y in feet:
+        facing = (x - camera.x) * math.cos(camera.yaw) + (y - camera.y) * math.sin(camera.yaw)
+        if facing < 0.5 or math.hypot(x - camera.x, y - camera.y) > reach:
+            continue
+        (u, v), (_, top) = camera.project(np.array([[x, y, 0.0], [x, y, 1.2]]))
+        half = 0.04 * camera.fx / facing
+        if u - half > 0 and u + half < camera.width_px and v < camera.height_px:
+            objects.append(
+                DetectedObject(kind=ObjectKind.TRUNK, confidence=0.9, x1=u - half, y1=top, x2=u + half, y2=v)
+            )
+    return tuple(objects)
+
+
+def corridor_feet(
+    pose: SE2, *, width: float = 3.0, start: float = -20.0, end: float = 40.0, spacing: float = 1.5, lines: int = 2,
+    keep_left: bool = True, keep_right: bool = True,
+) -> np.ndarray:  # fmt: skip
+    """Feet (N, 2) in `base_link` of a robot at `pose` in an orchard whose corridor runs along x with y = 0 inside."""
+    sides = [(k + 0.5) * width for k in range(-lines, lines)]
+    sides = [y for y in sides if (y > 0 or keep_right) and (y < 0 or keep_left)]
+    along = np.arange(start, end + 1e-6, spacing)
+    feet = np.stack(np.meshgrid(along, sides), axis=-1).reshape(-1, 2)
+    return pose.inverse().apply(feet)

@@ -1,0 +1,161 @@
+"""A training run in small: it learns, it resumes, and what is shipped is what was trained."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+import torch
+
+from navcore.errors import InputError, ModelError
+from navcore.perception.onnx_detector import OnnxDetector, OnnxDetectorParams
+from navcore.training.augment import AugmentParams, augment
+from navcore.training.evaluate import evaluate, table
+from navcore.training.export import export_onnx
+from navcore.training.loss import focal_loss
+from navcore.training.model import FootNet, FootNetParams
+from navcore.training.samples import Labels, read_samples
+from navcore.training.targets import targets
+from navcore.training.torch_detector import TorchDetector
+from navcore.training.trainer import Trainer, TrainerParams, load_net
+from tests.navcore.training.farm_pictures import draw_set
+
+SMALL = TrainerParams(
+    epochs=2, batch=4, learning_rate=1e-2, net=FootNetParams(channels=(8, 8, 16, 16, 16)),
+    augment=AugmentParams(full_height_px=192),
+)  # fmt: skip
+
+
+@pytest.fixture
+def pictures(tmp_path: Path) -> Path:
+    draw_set(tmp_path / "set", 16, 1)
+    return tmp_path / "set"
+
+
+def test_a_few_steps_lower_the_loss_and_the_best_weights_can_be_loaded(pictures: Path, tmp_path: Path) -> None:
+    lines: list[str] = []
+    samples = read_samples(pictures)
+    best = Trainer(tmp_path / "run", samples, samples[:2], SMALL).run(lines.append)
+    losses = [float(line.split("loss ")[1].split()[0]) for line in lines if line.startswith("epoch")]
+    assert losses[1] < 0.8 * losses[0]
+    assert isinstance(load_net(best), FootNet)
+
+
+def test_a_resumed_run_goes_on_where_it_stopped(pictures: Path, tmp_path: Path) -> None:
+    samples, lines = read_samples(pictures), list[str]()
+    Trainer(tmp_path / "run", samples, samples[:2], SMALL).run(lines.append)
+    again = Trainer(tmp_path / "run", samples, samples[:2], SMALL)
+    again.resume()
+    again.run(lines.append)
+    assert [line[:9] for line in lines] == ["epoch 1/2", "epoch 2/2"]
+
+
+def test_resuming_nothing_is_refused(pictures: Path, tmp_path: Path) -> None:
+    samples = read_samples(pictures)
+    with pytest.raises(ModelError, match="without --resume"):
+        Trainer(tmp_path / "none", samples, samples, SMALL).resume()
+
+
+def test_the_exported_detector_finds_what_torch_finds(pictures: Path, tmp_path: Path) -> None:
+    torch.manual_seed(3)
+    net = FootNet().eval()
+    path = tmp_path / "feet.onnx"
+    assert export_onnx(net, path) < 1e-4
+    image = np.random.default_rng(1).integers(0, 255, (384, 640, 3), dtype=np.uint8)
+    decoding = TorchDetector(net)._decoding
+    shipped = OnnxDetector(OnnxDetectorParams(weights=path, decoding=decoding)).detect(image)
+    trained = TorchDetector(net).detect(image)
+    assert len(shipped) == len(trained)
+    for a, b in zip(shipped, trained, strict=True):
+        assert (a.x1, a.y1, a.x2, a.y2) == pytest.approx((b.x1, b.y1, b.x2, b.y2), abs=0.01)  # px
+
+
+def test_weights_that_are_none_are_refused(tmp_path: Path) -> None:
+    (tmp_path / "best.pt").write_bytes(b"no weights")
+    with pytest.raises(ModelError, match="no weights of this detector"):
+        load_net(tmp_path / "best.pt")
+
+
+def test_a_flawless_detector_scores_one_and_the_table_names_every_season(pictures: Path) -> None:
+    samples = read_samples(pictures)
+
+    class Flawless:
+        def __init__(self) -> None:
+            self.left = list(samples)
+
+        def detect(self, image: np.ndarray) -> object:
+            from navcore.perception.box_decoding import detected_objects
+
+            labels = self.left.pop(0).labels
+            ones = np.ones(len(labels.boxes))
+            return detected_objects(labels.boxes, ones, labels.kinds.tolist(), scale=1.0, width_px=256, height_px=192)
+
+    scores = evaluate(Flawless(), samples, 0.5)  # type: ignore[arg-type]
+    assert [s.name for s in scores] == ["all", "growing", "noon"]
+    assert all(s.map50 == 1.0 and s.feet.recall == 1.0 and s.feet.precision == 1.0 for s in scores)
+    assert "growing" in table(scores)
+
+
+@pytest.mark.parametrize(
+    "text", ["{", "[]", '{"images": [], "annotations": []}', '{"images": 1, "annotations": 2, "categories": []}']
+)
+def test_a_broken_set_is_refused_with_a_sentence(tmp_path: Path, text: str) -> None:
+    (tmp_path / "annotations.json").write_text(text, encoding="utf-8")
+    with pytest.raises(InputError, match="not a COCO set"):
+        read_samples(tmp_path)
+
+
+def test_a_set_may_not_name_pictures_outside_of_itself(pictures: Path) -> None:
+    document = json.loads((pictures / "annotations.json").read_text())
+    document["images"][0]["file_name"] = "../../secret.png"
+    (pictures / "annotations.json").write_text(json.dumps(document))
+    with pytest.raises(InputError, match="outside of the set"):
+        read_samples(pictures)
+
+
+def test_a_box_that_is_not_finite_is_refused(pictures: Path) -> None:
+    document = json.loads((pictures / "annotations.json").read_text())
+    document["annotations"][0]["bbox"][0] = float("nan")
+    (pictures / "annotations.json").write_text(json.dumps(document))
+    with pytest.raises(InputError, match="not finite"):
+        read_samples(pictures)
+
+
+def test_the_target_is_one_at_the_foot_and_tells_where_in_the_cell_it_is() -> None:
+    labels = Labels(boxes=np.array([[98.0, 21.0, 106.0, 61.0]]), kinds=np.array([1]), ignore=np.array([False]))
+    target = targets(labels, 96, 160)
+    assert target.heat.max() == target.heat[1, 15, 25] == 1.0
+    np.testing.assert_allclose(target.boxes[:, 15, 25], (0.0, -0.25, np.log(2.0), np.log(10.0)), atol=1e-6)
+    assert target.weight[15, 25] == 1.0
+
+
+def test_nothing_is_asked_around_an_ignored_object() -> None:
+    labels = Labels(boxes=np.array([[98.0, 21.0, 106.0, 61.0]]), kinds=np.array([1]), ignore=np.array([True]))
+    target = targets(labels, 96, 160)
+    assert target.heat[:, 15, 25].tolist() == [-1.0, -1.0]
+    assert target.weight.sum() == 0.0
+
+
+def test_cells_that_are_not_asked_do_not_move_the_loss() -> None:
+    heat = torch.zeros(1, 2, 4, 4)
+    heat[0, 0, 1, 1] = 1.0
+    heat[0, 1] = -1.0
+    logits = torch.zeros(1, 2, 4, 4)
+    louder = logits.clone()
+    louder[0, 1] = 5.0
+    assert focal_loss(logits, heat, 2.0, 4.0) == focal_loss(louder, heat, 2.0, 4.0)
+
+
+def test_boxes_follow_the_pixels_when_a_picture_is_cropped_scaled_and_mirrored() -> None:
+    image = np.zeros((360, 640, 3), np.uint8)
+    image[100:200, 300:320] = 255
+    labels = Labels(boxes=np.array([[300.0, 100.0, 320.0, 200.0]]), kinds=np.array([0]), ignore=np.array([False]))
+    plain = AugmentParams(gain=1.0, gamma=1.0, noise=0.0, blur_share=0.0, foot_share=1.0, width_px=320, height_px=320)
+    for seed in range(6):
+        crop, moved = augment(image, labels, plain, np.random.default_rng(seed))
+        rows, columns = np.nonzero(crop[..., 0] > 128)
+        x1, y1, x2, y2 = np.clip(moved.boxes[0], 0, 320)
+        assert (columns.min(), rows.min()) == pytest.approx((x1, y1), abs=1.5)  # px
+        assert (columns.max() + 1, rows.max() + 1) == pytest.approx((x2, y2), abs=1.5)  # px
