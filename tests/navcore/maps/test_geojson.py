@@ -122,7 +122,8 @@ def test_coordinates_that_are_no_numbers_are_refused(bad: object) -> None:
 @pytest.mark.parametrize(
     ("kind", "name", "bad"),
     [("row", "width", math.nan), ("row", "width", -2.0), ("lane", "speed", "fast"),
-     ("warehouse", "yaw_deg", math.inf), ("lane", "name", 7), ("plant", "plant", "tree"), ("row", "speed", 10**400), ("row", "kind", "street")],
+     ("warehouse", "yaw_deg", math.inf), ("lane", "name", 7), ("plant", "plant", "tree"),
+     ("row", "speed", 10**400), ("row", "kind", "street")],
 )  # fmt: skip
 def test_properties_out_of_bounds_are_refused_by_name(kind: str, name: str, bad: object) -> None:
     assert f'"{name}" of feature' in broken(lambda d: feature(d, kind)["properties"].update({name: bad}))
