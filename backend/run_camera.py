@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import struct
 from collections.abc import Iterator
 from pathlib import Path
@@ -19,7 +20,7 @@ BEFORE_NS = 2 * NS  # an older picture is no longer what was on the screen
 
 
 def picture_at(path: Path, t_s: float) -> tuple[str, bytes]:
-    """Description (JSON) and JPEG of the newest picture at `t_s` after the log's first status.
+    """Description (JSON in ASCII, fit for a header) and JPEG of the newest picture at `t_s` after the log's first status.
 
     Raises NotFoundError where no picture was taken in the two seconds before, and LogError.
     """
@@ -30,7 +31,7 @@ def picture_at(path: Path, t_s: float) -> tuple[str, bytes]:
             newest = message
     if newest is None:
         raise NotFoundError("The camera was not looking at that moment.")
-    return newest.payload.decode(), newest.attachment
+    return json.dumps(json.loads(newest.payload)), newest.attachment
 
 
 def _first_status_ns(path: Path) -> int:
@@ -56,8 +57,9 @@ def _indexed(path: Path, from_ns: int, to_ns: int) -> Iterator[LogMessage]:
         summary = reader.get_summary()
         if summary is None or not summary.chunk_indexes:
             return
-        times = (max(0, from_ns + offset_ns), to_ns + offset_ns + 1)
-        for _, channel, message in reader.iter_messages((IMAGE_TOPIC, CAMERA_VIEW.name), *times):
+        first_ns, last_ns = max(0, from_ns + offset_ns), max(0, to_ns + offset_ns)
+        topics = (IMAGE_TOPIC, CAMERA_VIEW.name)
+        for _, channel, message in reader.iter_messages(topics, starting_at=first_ns, ending_at=last_ns):
             if channel.topic == IMAGE_TOPIC:
                 jpeg = image_of(message.data)
             else:

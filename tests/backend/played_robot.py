@@ -12,6 +12,8 @@ from pathlib import Path
 
 from navcore.chassis.protocol import answer_stop
 from navcore.messages import (
+    CameraName,
+    CameraView,
     FixQuality,
     NavMode,
     NavStatus,
@@ -19,17 +21,19 @@ from navcore.messages import (
     Reply,
     Request,
     RequestKind,
+    RowObservation,
     RunState,
 )
 from navcore.recording.recorder import Recorder
 from navcore.recording.recorder_process import RecorderProcess
-from navcore.topics import NAV_PLAN, NAV_STATUS
+from navcore.topics import CAMERA_VIEW, NAV_PLAN, NAV_STATUS
 from navcore.transport.codec import decode
 from navcore.transport.endpoints import Endpoints
 from navcore.transport.pubsub import Publisher
 from navcore.transport.request import Replier
 from navcore.transport.supervision import SupervisorReply, SupervisorRequest, SupervisorRequestKind
 
+JPEG = b"\xff\xd8" + bytes(range(256)) * 100 + b"\xff\xd9"
 AFTER = {
     RequestKind.START: RunState.DRIVING,
     RequestKind.PAUSE: RunState.PAUSED,
@@ -49,11 +53,12 @@ class PlayedRobot:
         self.run_id: str | None = None
         self.x = 0.0
         self.refusals: tuple[str, ...] = ()
+        self.camera = False
         self.requests: list[Request] = []
         self.stops = 0
         self.site_id: str | None = None
         self._ended = threading.Event()
-        loops = (self._navigate, self._guard, self._record, self._supervise)
+        loops = (self._navigate, self._guard, self._record, self._supervise, self._look)
         self._threads = [threading.Thread(target=loop, daemon=True) for loop in loops]
         for thread in self._threads:
             thread.start()
@@ -117,6 +122,12 @@ class PlayedRobot:
             self.stops += 1
             guard.sendto(answer, sender)
 
+    def _look(self) -> None:
+        with Publisher(self.endpoints, "row_worker") as publisher:
+            while not self._ended.wait(0.1):
+                if self.camera:
+                    publisher.publish(CAMERA_VIEW.name, view(time.monotonic_ns()), JPEG)
+
     def _record(self) -> None:
         process = RecorderProcess(self.endpoints, Recorder())
         while not self._ended.is_set():
@@ -134,6 +145,15 @@ class PlayedRobot:
         if request.kind is SupervisorRequestKind.LOAD_SITE:
             self.site_id = request.site_id
         return SupervisorReply(accepted=True, site_id=self.site_id)
+
+
+def view(stamp_ns: int) -> CameraView:
+    """What a camera says that sees no row."""
+    row = RowObservation(stamp_ns=stamp_ns, camera=CameraName.FRONT, valid=False, reason="too dark")
+    return CameraView(
+        stamp_ns=stamp_ns, camera=CameraName.FRONT, width_px=640, height_px=360, objects=(), points=(), left=None,
+        right=None, centre=None, row=row, latency_ms=30.0,
+    )  # fmt: skip
 
 
 def until(condition: Callable[[], bool], within_s: float = 20.0) -> bool:

@@ -12,7 +12,7 @@ from fastapi.testclient import TestClient
 from backend.station import Station
 from navcore.maps.site_map import SiteMap
 from navcore.messages import RequestKind, RunState
-from tests.backend.played_robot import PlayedRobot, until
+from tests.backend.played_robot import JPEG, PlayedRobot, until
 
 pytestmark = pytest.mark.usefixtures("robot")
 
@@ -121,6 +121,7 @@ def test_pause_resume_and_acknowledge_reach_the_navigator(
 def test_a_run_is_summed_up_logged_and_downloaded(
     client: TestClient, robot: PlayedRobot, ready: dict[str, Any]
 ) -> None:
+    robot.camera = True
     run_id = start(client, ready).json()["id"]
     address = f"/api/runs/{run_id}"
     assert until(lambda: client.get(address).json()["distance_m"] > 0.5)
@@ -141,7 +142,10 @@ def test_a_run_is_summed_up_logged_and_downloaded(
         assert answer.status_code == 200, answer.text
         assert answer.content.startswith(beginning)
         assert f"run-{run_id}.{form}" in answer.headers["content-disposition"]
-    assert client.get(f"{address}/camera", params={"t_s": 1.0}).status_code == 404
+    picture = client.get(f"{address}/camera", params={"t_s": columns["camera_t_s"][3] + 0.01})
+    assert (picture.status_code, picture.content) == (200, JPEG)
+    assert json.loads(picture.headers["x-camera-view"])["row"]["reason"] == "too dark"
+    assert client.get(f"{address}/camera", params={"t_s": 3600.0}).status_code == 404
     part = client.get(f"{address}/download", headers={"Range": "bytes=0-7"})
     assert (part.status_code, part.content) == (206, b"\x89MCAP0\r\n")
     bomb = client.get(f"{address}/download", headers={"Range": "bytes=" + ",".join(["0-1"] * 5000)})
