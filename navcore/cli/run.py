@@ -56,11 +56,17 @@ def _settings(port: int | None, data: Path | None, *, simulated: bool) -> Settin
 
 
 def _run(settings: Settings, can: str | None, gnss: str | None, config: Path | None, simulation: str) -> None:
+    from navcore.cli.first_farm import beginning_farm
     from navcore.runtime.supervisor import Supervisor
 
     settings.data_dir.mkdir(parents=True, exist_ok=True)
-    robot = _real_robot(settings, can, gnss, config) if can else _simulated_robot(settings, config, simulation)
-    supervisor = Supervisor(robot, None, _environment(settings))
+    farm = beginning_farm(settings)
+    robot = (
+        _real_robot(settings, farm.path, can, gnss, config)
+        if can
+        else _simulated_robot(settings, farm.path, config, simulation)
+    )
+    supervisor = Supervisor(robot, farm.site_id, _environment(settings))
     ended: list[int] = []
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, lambda got, _: ended.append(got))
@@ -83,7 +89,7 @@ def _environment(settings: Settings) -> dict[str, str]:
     }
 
 
-def _simulated_robot(settings: Settings, config: Path | None, simulation: str) -> Robot:
+def _simulated_robot(settings: Settings, site: Path, config: Path | None, simulation: str) -> Robot:
     import msgspec
 
     from navcore.errors import ConfigError
@@ -96,13 +102,13 @@ def _simulated_robot(settings: Settings, config: Path | None, simulation: str) -
         raise ConfigError(f"The simulation's settings are not usable: {error}") from error
     options = {"port": _free_port(socket.SOCK_DGRAM), "hop_limit": 0, "fd": 0}
     return Robot(
-        bus=settings.bus_dir, site=_demo_site(settings.data_dir), vehicle=settings.vehicle, config=config,
+        bus=settings.bus_dir, site=site, vehicle=settings.vehicle, config=config,
         can=CanSettings(interface="udp_multicast", channel=MULTICAST_GROUP, options=options),
         gnss=f"tcp://127.0.0.1:{_free_port(socket.SOCK_STREAM)}", simulation=params,
     )  # fmt: skip
 
 
-def _real_robot(settings: Settings, can: str, gnss: str | None, config: Path | None) -> Robot:
+def _real_robot(settings: Settings, site: Path, can: str, gnss: str | None, config: Path | None) -> Robot:
     from navcore.errors import ConfigError
     from navcore.runtime.gnss_address import GnssAddress
     from navcore.runtime.processes import CanSettings, Robot
@@ -111,19 +117,9 @@ def _real_robot(settings: Settings, can: str, gnss: str | None, config: Path | N
         raise ConfigError("A real robot needs a receiver: give --gnss.")
     GnssAddress(gnss)
     return Robot(
-        bus=settings.bus_dir, site=_demo_site(settings.data_dir), vehicle=settings.vehicle, config=config,
+        bus=settings.bus_dir, site=site, vehicle=settings.vehicle, config=config,
         can=CanSettings(interface="socketcan", channel=can), gnss=gnss,
     )  # fmt: skip
-
-
-def _demo_site(data_dir: Path) -> Path:
-    """A farm to begin with, until the station names another."""
-    from navcore.sim.demo_farm import demo_farm
-    from navcore.transport.codec import encode
-
-    path = data_dir / "first_site.json"
-    path.write_bytes(encode(demo_farm()))
-    return path
 
 
 def _free_port(kind: socket.SocketKind) -> int:
