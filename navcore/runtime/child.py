@@ -2,21 +2,19 @@
 
 from __future__ import annotations
 
-import ctypes
 import os
 import signal
 import subprocess
 import sys
-from collections.abc import Callable
 from contextlib import suppress
 
 from navcore.runtime.processes import ProcessSpec, Robot
 from navcore.transport.supervision import ProcessStatus
 
 FIRST_PAUSE_S = 0.2
-LONGEST_PAUSE_S = 5.0
+LONGEST_PAUSE_S = 30.0
 CALM_S = 30.0
-PR_SET_PDEATHSIG = 1  # linux/prctl.h
+TIED = "navcore.runtime.tied"
 
 
 class Child:
@@ -33,10 +31,9 @@ class Child:
 
     def start(self, robot: Robot, now_s: float) -> None:
         """Start it; it ends with us, however we end."""
-        command = (sys.executable, "-m", self.spec.module, *self.spec.arguments(robot))
-        self._process = subprocess.Popen(
-            command, env={**os.environ, **self._environment}, start_new_session=True, preexec_fn=_end_with_parent()
-        )
+        command = (sys.executable, "-m", TIED, self.spec.module, *self.spec.arguments(robot))
+        environment = {**os.environ, **self._environment}
+        self._process = subprocess.Popen(command, env=environment, start_new_session=True)
         self._started_s, self._start_at_s = now_s, None
 
     def watch(self, robot: Robot, now_s: float) -> None:
@@ -75,11 +72,3 @@ class Child:
         running = process is not None and process.poll() is None
         pid = process.pid if process is not None and running else None
         return ProcessStatus(name=self.spec.name, running=running, pid=pid, restarts=self.restarts)
-
-
-def _end_with_parent() -> Callable[[], object] | None:
-    """Has the kernel send SIGTERM when the supervisor dies, where there is such a thing."""
-    if not sys.platform.startswith("linux"):
-        return None
-    prctl = ctypes.CDLL(None).prctl  # looked up before the fork: little is allowed after it
-    return lambda: prctl(PR_SET_PDEATHSIG, signal.SIGTERM)

@@ -20,7 +20,7 @@ RESTING = frozenset({RunState.IDLE, RunState.FINISHED, RunState.STOPPED})
 class UnderstudyParams:
     """Attributes:
     generation_s: age at which a younger navigator is ready, s, > 5: it must have found its pose.
-    longest_history_s: of the one in charge; older, it cannot be replayed, s.
+    longest_history_s: of inputs that are kept; a run that began with older ones cannot be replayed, s.
     """
 
     generation_s: float = 20.0
@@ -90,8 +90,9 @@ class Understudy:
         if decision.status.state not in RESTING:
             self._ready = self._warming = None
             return
-        if now_ns - self._leading.born_ns > self._params.longest_history_s * 1e9:
-            self._leading.history = None
+        for rehearsed in (self._leading, self._ready):
+            if rehearsed is not None and now_ns - rehearsed.born_ns > self._params.longest_history_s * 1e9:
+                rehearsed.history = None
         if self._warming is None:
             self._warming = Rehearsed(self._new(), now_ns)
         elif now_ns - self._warming.born_ns > self._params.generation_s * 1e9 and self._warming.has_pose:
