@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import typer
 
-from navcore.cli import dataset, evaluate, run, train
+from navcore.cli import dataset, evaluate, replay, run, train
 from navcore.cli.bench import bench_app
 from navcore.cli.decode import decode_app
 
@@ -17,6 +17,7 @@ dataset.register(app)
 evaluate.register(app)
 train.register(app)
 run.register(app)
+replay.register(app)
 
 
 @app.callback()

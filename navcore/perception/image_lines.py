@@ -62,4 +62,4 @@ def published_reading(centre: Line2, camera: PinholeCamera, look_ahead: float) -
     u = centre.x_at(float(v))
     if u is None:
         return None
-    return -(u - camera.cx) * look_ahead / camera.fx, math.atan2(-centre.ny, centre.nx)
+    return float(-(u - camera.cx) * look_ahead / camera.fx), math.atan2(-centre.ny, centre.nx)

@@ -21,8 +21,7 @@ from navcore.vehicle import PAPER_A
 CONFIG = RobotConfig()
 
 
-@pytest.fixture
-def farm() -> SiteMap:
+def small_farm() -> SiteMap:
     """Four rows of 25 m, 3 m apart, a headland with a road before them, a warehouse at the road."""
     rows = tuple(
         Row(id=f"r{i}", name=f"Row {i + 1}", start=(20.0 + 3.0 * i, 0.0), end=(20.0 + 3.0 * i, 25.0))
@@ -36,6 +35,12 @@ def farm() -> SiteMap:
         lanes=(road,),
         rows=rows,
     )
+
+
+@pytest.fixture
+def farm() -> SiteMap:
+    """The small farm."""
+    return small_farm()
 
 
 @dataclass
