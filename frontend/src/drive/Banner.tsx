@@ -26,7 +26,7 @@ export function Banner(props: Props) {
         <h1>{fresh && status ? headline(status, names) : "No news from the robot"}</h1>
         <p>{fresh && status ? why(status.mode_reason) : "Controls are off until data arrive. STOP still works."}</p>
       </div>
-      {status && fresh && status.run_id && <Progress progress={status.progress} remaining={status.remaining} />}
+      {status && fresh && status.run_id && status.state !== "idle" && <Progress progress={status.progress} remaining={status.remaining} />}
       <Controls {...props} />
       {fresh && status && status.events.length > 0 && (
         <div className={css.events}>

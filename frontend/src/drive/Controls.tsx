@@ -27,11 +27,11 @@ interface Props {
   onMission: (id: string) => void;
 }
 
-/** Only what makes sense now, and nothing at all while the data are old. */
+/** Only what makes sense now; off while the data are old. */
 export function Controls({ document, missions, mission, preview, onMission }: Props) {
   const status = useTopic("nav/status");
   const fresh = useFresh("nav/status");
-  const state = fresh ? status?.state : undefined;
+  const state = status?.state;
   const [sheet, setSheet] = useState(false);
   const act = useMutation({ mutationFn: (action: Action) => post(`/api/runs/current/${action}`) });
   const idle = !isUnderWay(state);
@@ -39,19 +39,20 @@ export function Controls({ document, missions, mission, preview, onMission }: Pr
   useEffect(() => {
     if (!idle) setSheet(false);
   }, [idle]);
+  const ready = state === "idle" || state === "finished" || state === undefined;
   const shown = (Object.keys(ACTIONS) as Action[]).filter((a) => state && ACTIONS[a].when(state, status?.guard ?? ""));
   return (
     <div className={css.controls}>
-      {idle && <MissionChoice missions={missions} mission={mission} onMission={onMission} siteId={document.id} />}
-      {idle && mission && (
-        <Button size="lg" leftSection={<IconPlayerPlay size={24} />} disabled={!state || state === "stopped"} onClick={() => setSheet(true)}>
+      {ready && <MissionChoice missions={missions} mission={mission} onMission={onMission} siteId={document.id} />}
+      {ready && mission && (
+        <Button size="lg" leftSection={<IconPlayerPlay size={24} />} disabled={!fresh} onClick={() => setSheet(true)}>
           Start …
         </Button>
       )}
       {shown.map((action) => {
         const { word, icon: Glyph } = ACTIONS[action];
         return (
-          <Button key={action} size="lg" variant={action === "pause" ? "default" : "filled"} leftSection={<Glyph size={24} />} loading={act.isPending} onClick={() => act.mutate(action)}>
+          <Button key={action} size="lg" variant={action === "pause" ? "default" : "filled"} leftSection={<Glyph size={24} />} loading={act.isPending} disabled={!fresh} onClick={() => act.mutate(action)}>
             {word}
           </Button>
         );

@@ -1,9 +1,8 @@
-import { ActionIcon } from "@mantine/core";
-import { IconCurrentLocation } from "@tabler/icons-react";
 import { useCallback, useState } from "react";
 
 import type { MissionPlan, Robot, SiteDocument } from "../api/types";
 import { FitTo } from "../map/FitTo";
+import { FollowButton } from "../map/FollowButton";
 import { LiveDrivenLayer } from "../map/LiveDrivenLayer";
 import { LiveRobotLayer } from "../map/LiveRobotLayer";
 import { MapView } from "../map/MapView";
@@ -26,9 +25,7 @@ export function DriveMap({ document, robot, plan }: { document: SiteDocument; ro
       <LiveDrivenLayer frame={frame} />
       <LiveRobotLayer frame={frame} vehicle={robot.vehicle} follow={follow} />
       <FitTo extent={extent} subject={document.id} />
-      <ActionIcon className={css.follow} aria-pressed={follow} onClick={() => setFollow(!follow)} aria-label="Follow the robot" title="Follow the robot">
-        <IconCurrentLocation size={26} />
-      </ActionIcon>
+      <FollowButton follow={follow} onChange={setFollow} />
     </MapView>
   );
 }

@@ -19,7 +19,7 @@ export function Gauges() {
   return (
     <div className={css.gauges}>
       <Gauge name="Speed" value={speed(s?.v)} note={s && s.state === "driving" ? `of ${speed(s.speed_limit)}, ${s.speed_reason}` : ""} />
-      <Gauge name="Off the line" value={centimetres(s?.lateral_error)} note={side(s?.lateral_error)} tone={lateralTone(s?.lateral_error)} />
+      <Gauge name="Off the line" value={centimetres(s?.lateral_error && Math.abs(s.lateral_error))} note={side(s?.lateral_error)} tone={lateralTone(s?.lateral_error)} />
       <Gauge name="Heading off" value={degrees(s?.heading_error)} />
       <Gauge name="GNSS" value={s ? fixWords(s.gnss_quality) : "–"} note={s ? gnssNote(s) : ""} tone={gnssTone(s)} />
       <Gauge name="Battery" value={volts(s?.battery_v)} tone={batteryTone(s?.battery_v)} />
@@ -46,7 +46,7 @@ const lateralTone = (lateral: number | null | undefined): Tone | undefined =>
   lateral && Math.abs(lateral) > LATERAL_WARN ? "warn" : undefined;
 
 function gnssNote({ gnss_age_s, pose }: NavStatus): string {
-  return `±${centimetres(positionSigma(pose?.covariance))}, ${seconds(gnss_age_s)} old`;
+  return `position ±${centimetres(positionSigma(pose?.covariance))}, ${seconds(gnss_age_s)} old`;
 }
 
 const gnssTone = (s: NavStatus | null): Tone | undefined => (!s ? undefined : s.gnss_quality === 0 || (s.gnss_age_s ?? 9) > 1 ? "warn" : undefined);

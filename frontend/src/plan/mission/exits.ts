@@ -4,5 +4,5 @@ import type { RowExit } from "../../api/types";
 export const EXITS: { value: RowExit; label: string }[] = [
   { value: "reverse", label: "Reverse out" },
   { value: "next_row", label: "Next row" },
-  { value: "through", label: "Drive through" },
+  { value: "through", label: "Through" },
 ];
