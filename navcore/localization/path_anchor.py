@@ -23,6 +23,7 @@ class PathAnchorParams:
     Attributes:
         slide: how fast the followed path may move sideways, m/s, > 0.
         slide_along: how fast it may move along the driving direction, m/s, > 0.
+        patience: no further away from the robot than this does the path slide, m: it waits until the robot follows.
         turn: how fast it may turn, rad/s, > 0.
         growth_lateral: 1-sigma of the lateral drift of odometry, m per square root of m driven, > 0.
         growth_heading: 1-sigma of the heading drift, rad per square root of m driven, > 0.
@@ -35,6 +36,7 @@ class PathAnchorParams:
 
     slide: float = 0.15
     slide_along: float = 0.5
+    patience: float = 0.20
     turn: float = 0.10
     growth_lateral: float = 0.02
     growth_heading: float = 0.005
@@ -114,15 +116,25 @@ class PathAnchor:
     def _set(self, T_map_drive: SE2, T_odom_drive: SE2) -> None:
         self.T_map_odom = T_map_drive @ T_odom_drive.inverse()
 
-    def slide(self, T_odom_drive: SE2, dt: float) -> SE2:
-        """Move the followed tie towards the wanted one for `dt` seconds; the followed pose of the driving frame."""
+    def slide(self, T_odom_drive: SE2, dt: float, lateral_error: float = 0.0) -> SE2:
+        """Move the followed tie towards the wanted one for `dt` seconds; the followed pose of the driving frame.
+
+        `lateral_error` is the robot's distance from its path now, positive on its left.
+        """
         at = self.followed @ T_odom_drive
         off = at.inverse() @ self.T_map_odom @ T_odom_drive
         p = self.params
-        step = SE2(_within(off.x, p.slide_along * dt), _within(off.y, p.slide * dt), _within(off.yaw, p.turn * dt))
+        aside = p.slide * self._patience(off.y, lateral_error) * dt
+        step = SE2(_within(off.x, p.slide_along * dt), _within(off.y, aside), _within(off.yaw, p.turn * dt))
         pose = at @ step
         self.followed = pose @ T_odom_drive.inverse()
         return pose
+
+    def _patience(self, sideways: float, lateral_error: float) -> float:
+        """Share of the rate: less the further the path would run away from the robot."""
+        if sideways * lateral_error <= 0.0:
+            return 1.0
+        return max(1.0 - abs(lateral_error) / self.params.patience, 0.0)
 
     def jump(self) -> None:
         """Follow the wanted tie at once (allowed at standstill only)."""

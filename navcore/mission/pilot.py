@@ -113,7 +113,7 @@ class Pilot:
             self._see(seen, self._drive(T_odom_base))
         if self.mode is NavMode.GNSS_PATH and at.T_map_base is not None:
             self.anchor.follow(at.T_map_base @ at.T_odom_base.inverse())
-        self.pose = self.anchor.slide(self._drive(at.T_odom_base), dt)
+        self.pose = self.anchor.slide(self._drive(at.T_odom_base), dt, self.projection.lateral)
         self.projection = self._project(self.place.s)
         self.captured = self.captured or abs(self.projection.lateral) <= self.params.capture
         self.place = Place(self.place.leg, self.projection.s)

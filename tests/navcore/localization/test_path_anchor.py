@@ -80,3 +80,14 @@ def test_a_wrong_map_is_corrected_by_the_row_end() -> None:
     before = ROW.coordinates(anchor.T_map_odom @ odom).x
     anchor.see_along(ROW, odom, along=before + 0.8, std=0.4)
     assert ROW.coordinates(anchor.T_map_odom @ odom).x > before + 0.5
+
+
+def test_the_path_waits_for_a_robot_that_does_not_follow() -> None:
+    anchor, odom = anchored(), SE2(8.0, 3.0, 0.25)
+    before = anchor.followed @ odom
+    wanted = before @ SE2(0.0, 0.8, 0.0)
+    anchor.follow(wanted @ odom.inverse())
+    for _ in range(500):
+        lateral = (before.inverse() @ anchor.followed @ odom).y
+        anchor.slide(odom, 0.02, lateral)
+    assert (before.inverse() @ anchor.followed @ odom).y <= anchor.params.patience  # m
