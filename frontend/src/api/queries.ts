@@ -36,6 +36,9 @@ export const robotQuery = queryOptions({
   refetchInterval: 3000,
 });
 
+/** Puts the simulated robot at the warehouse of a site. */
+export const standOnSite = (site_id: string) => post<Robot>("/api/robot/site", { site_id });
+
 export const jobQuery = (id: string | null) =>
   queryOptions({
     queryKey: ["job", id],

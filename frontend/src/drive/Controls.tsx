@@ -8,6 +8,7 @@ import { post } from "../api/client";
 import type { MissionDocument, Preview, RunState, SiteDocument } from "../api/types";
 import { useFresh, useTopic } from "../live/hooks";
 import { isUnderWay } from "../ui/words";
+import { BackToWarehouse } from "./BackToWarehouse";
 import { StartSheet } from "./StartSheet";
 import css from "./drive.module.css";
 
@@ -43,6 +44,7 @@ export function Controls({ document, missions, mission, preview, onMission }: Pr
   const shown = (Object.keys(ACTIONS) as Action[]).filter((a) => state && ACTIONS[a].when(state, status?.guard ?? ""));
   return (
     <div className={css.controls}>
+      {ready && <BackToWarehouse document={document} />}
       {ready && <MissionChoice missions={missions} mission={mission} onMission={onMission} siteId={document.id} />}
       {ready && mission && (
         <Button size="lg" leftSection={<IconPlayerPlay size={24} />} disabled={!fresh} onClick={() => setSheet(true)}>

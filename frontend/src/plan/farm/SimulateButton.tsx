@@ -2,9 +2,7 @@ import { Button } from "@mantine/core";
 import { IconTractor } from "@tabler/icons-react";
 import { useMutation, useQuery, useQueryClient } from "@tanstack/react-query";
 
-import { post } from "../../api/client";
-import { robotQuery } from "../../api/queries";
-import type { Robot } from "../../api/types";
+import { robotQuery, standOnSite } from "../../api/queries";
 import { notifyDone } from "../../ui/notify";
 import { isUnderWay } from "../../ui/words";
 import type { SiteEditing } from "../useSiteEditor";
@@ -16,7 +14,7 @@ export function SimulateButton({ siteId, editing }: { siteId: string; editing: S
   const move = useMutation({
     mutationFn: async () => {
       await editing.autosave.flush();
-      return post<Robot>("/api/robot/site", { site_id: siteId });
+      return standOnSite(siteId);
     },
     onSuccess: () => {
       void client.invalidateQueries({ queryKey: ["robot"] });
