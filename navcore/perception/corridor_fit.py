@@ -49,20 +49,15 @@ class Corridor:
 
     Attributes:
         state: (4,).
-        information: (4, 4), inverse covariance.
+        covariance: (4, 4).
         sides: (N,) +1 for a foot on the left line, -1 on the right, 0 for one that is no evidence.
         x: (N,) distance of the feet ahead of the driving frame's origin, m; NaN where not on the ground.
     """
 
     state: Floats
-    information: Floats
+    covariance: Floats
     sides: Ints
     x: Floats
-
-    @property
-    def covariance(self) -> Floats:
-        """(4, 4)."""
-        return np.asarray(np.linalg.inv(self.information))
 
 
 class CorridorFit:
@@ -72,6 +67,7 @@ class CorridorFit:
         self._camera = camera
         self._params = params
         self._mount = (camera.x, camera.y, camera.z)
+        self._R_driving_camera = camera.R_base_camera()
         scale = camera.width_px / 640 / camera.fx
         self._noise = (params.foot_u_px * scale, params.foot_v_px * scale, params.plant_std, params.curve)
 
@@ -93,14 +89,15 @@ class CorridorFit:
         z, after, found = kernels.refine(start, rays[used], mean, information, self._mount, self._noise, 5, widen)
         sides = np.zeros(len(rays), dtype=np.int64)
         sides[used] = found
-        return Corridor(state=z, information=after, sides=sides, x=self._ahead(rays, float(z[3])))
+        covariance = np.asarray(np.linalg.inv(after), dtype=np.float64)
+        return Corridor(state=z, covariance=covariance, sides=sides, x=self._ahead(rays, float(z[3])))
 
     def _rays(self, feet: Floats) -> tuple[Floats, Ints]:
         """Rays (N, 2) as (s, t), and the indices of the nearest of those that come down within range."""
         c = self._camera
         uv = np.asarray(feet, dtype=np.float64).reshape(-1, 2)
         optical = np.column_stack(((uv[:, 0] - c.cx) / c.fx, (uv[:, 1] - c.cy) / c.fy, np.ones(len(uv))))
-        d = optical @ c.R_base_camera().T
+        d = optical @ self._R_driving_camera.T
         rays = np.column_stack((d[:, 1], -d[:, 2])) / np.maximum(d[:, :1], 1e-3)
         in_range = np.flatnonzero((d[:, 0] > 1e-3) & (rays[:, 1] > c.z / self._params.max_range))
         nearest = np.argsort(-rays[in_range, 1], kind="stable")[: self._params.max_points]
