@@ -15,8 +15,9 @@ OPTIONS = {
     "GDAL_NUM_THREADS": "1",
     "GDAL_TIFF_INTERNAL_MASK": "YES",
     "GTIFF_VIRTUAL_MEM_IO": "NO",
-    "GDAL_SKIP": "VRT,HTTP,WMS,WMTS,WCS,PLMOSAIC,DERIVED,STACTA,STACIT,OGCAPI,EEDAI,DAAS",
 }
+# Of the import process alone, by its environment: our own tiles need VRT for warping.
+DRIVERS_OFF = "VRT,HTTP,WMS,WMTS,WCS,PLMOSAIC,DERIVED,STACTA,STACIT,OGCAPI,EEDAI,DAAS"
 
 
 def gdal() -> Env:

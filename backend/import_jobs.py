@@ -13,7 +13,7 @@ from pathlib import Path
 from threading import Lock, Thread, Timer
 
 from backend.errors import NotFoundError, TooLargeError
-from backend.gdal_setup import OPTIONS
+from backend.gdal_setup import DRIVERS_OFF, OPTIONS
 from backend.orthophoto_import import BROKEN
 from backend.schemas import Job, JobState
 from backend.settings import Settings
@@ -139,7 +139,11 @@ def environment() -> dict[str, str]:
     """Nothing of ours but the path; GDAL reads its driver list before any code of ours runs."""
     kept = {name: os.environ[name] for name in ("PATH", "PYTHONPATH", "LANG") if name in os.environ}
     gdal = {name: str(value) for name, value in OPTIONS.items()}
-    return kept | gdal | {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "PROJ_NETWORK": "OFF"}
+    return (
+        kept
+        | gdal
+        | {"GDAL_SKIP": DRIVERS_OFF, "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "PROJ_NETWORK": "OFF"}
+    )
 
 
 def site_name(file_name: str) -> str:

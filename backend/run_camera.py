@@ -20,7 +20,7 @@ BEFORE_NS = 2 * NS  # an older picture is no longer what was on the screen
 
 
 def picture_at(path: Path, t_s: float) -> tuple[str, bytes]:
-    """Description (JSON in ASCII, fit for a header) and JPEG of the newest picture at `t_s` after the log's first status.
+    """Description (ASCII JSON, fit for a header) and JPEG of the newest picture at `t_s` after the first status.
 
     Raises NotFoundError where no picture was taken in the two seconds before, and LogError.
     """

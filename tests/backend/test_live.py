@@ -1,0 +1,233 @@
+"""The live feed and the whole station process, over real sockets."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import os
+import re
+import signal
+import struct
+import subprocess
+import sys
+import urllib.error
+import urllib.request
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+from fastapi.testclient import TestClient
+from starlette.websockets import WebSocketDisconnect
+
+from backend.live import Outbox, framed
+from backend.schemas import LiveTopics
+from backend.settings import Settings
+from navcore.messages import RequestKind, RunState
+from navcore.topics import CAMERA_VIEW, TOPICS
+from navcore.transport.pubsub import Received
+from tests.backend.conftest import ORIGIN
+from tests.backend.played_robot import JPEG, PlayedRobot, until
+
+
+SOCKET = ORIGIN.replace("http", "ws")
+
+
+class StationProcess:
+    """`python -m backend`, as it is served."""
+
+    def __init__(self, settings: Settings, port: int = 0) -> None:
+        self._environment = os.environ | {
+            "ROWPILOT_DATA_DIR": str(settings.data_dir),
+            "ROWPILOT_BUS_DIR": str(settings.bus_dir),
+            "ROWPILOT_SCENE": "false",
+            "ROWPILOT_PORT": str(port),
+        }
+        self.log = settings.data_dir.parent / "station.log"
+        self.process = subprocess.Popen(
+            [sys.executable, "-m", "backend"],
+            env=self._environment,
+            stdout=subprocess.PIPE,
+            stderr=self.log.open("ab"),
+        )
+        self.address, self.token = self._read_address()
+        self.port = int(self.address.rpartition(":")[2])
+        self.cookie = ""
+
+    def _read_address(self) -> tuple[str, str]:
+        assert self.process.stdout is not None
+        for line in self.process.stdout:
+            found = re.search(rb"(http://\S+)/enter\?token=(\S+)", line)
+            if found:
+                return found[1].decode(), found[2].decode()
+        raise AssertionError(self.log.read_text())
+
+    def enter(self) -> None:
+        class NoRedirect(urllib.request.HTTPRedirectHandler):
+            def redirect_request(self, *_: Any) -> None:
+                return None
+
+        opener = urllib.request.build_opener(NoRedirect)
+        assert until(lambda: self._is_up())
+        codes = []
+        for _ in range(2):
+            try:
+                opener.open(f"{self.address}/enter?token={self.token}")
+            except urllib.error.HTTPError as answer:
+                codes.append(answer.code)
+                answer.close()
+        assert codes == [303, 403]
+
+    def _is_up(self) -> bool:
+        try:
+            urllib.request.urlopen(f"{self.address}/api/session").close()
+        except OSError:
+            return False
+        return True
+
+    def kill(self, number: int) -> int:
+        self.process.send_signal(number)
+        return self.process.wait(30.0)
+
+
+@pytest.fixture
+def live(robot: PlayedRobot, client: TestClient) -> TestClient:
+    """A logged-in browser, with a robot there."""
+    robot.camera = True
+    return client
+
+
+def read_topics(socket: Any, count: int) -> dict[str, Any]:
+    topics: dict[str, Any] = {}
+    for _ in range(count):
+        message = socket.receive()
+        if message["type"] == "websocket.close":
+            raise WebSocketDisconnect(message["code"])
+        if message.get("text") is not None:
+            told = json.loads(message["text"])
+            topics[told["topic"]] = told["data"]
+        else:
+            data = message["bytes"]
+            (length,) = struct.unpack_from("<I", data)
+            told = json.loads(data[4 : 4 + length])
+            topics[told["topic"]] = (told["data"], data[4 + length :])
+    return topics
+
+
+def test_a_browser_gets_status_and_pictures_as_the_bus_carries_them(live: TestClient) -> None:
+    with live.websocket_connect(f"{SOCKET}/api/live", headers={"Origin": ORIGIN}) as socket:
+        topics = read_topics(socket, 40)
+    assert topics["nav/status"]["state"] == "idle"
+    view, jpeg = topics["camera/view"]
+    assert (view["row"]["reason"], jpeg) == ("too dark", JPEG)
+    latest = live.get("/api/live/latest").json()
+    LiveTopics.model_validate(latest)
+    assert latest["nav/plan"] is None
+
+
+def test_the_documented_topics_are_those_that_are_shown() -> None:
+    aliases = {field.alias for field in LiveTopics.model_fields.values()}
+    assert aliases == {topic.name for topic in TOPICS.values() if topic.shown}
+
+
+def test_a_heartbeat_reaches_the_navigator_while_a_page_lives(live: TestClient, robot: PlayedRobot) -> None:
+    assert RequestKind.HEARTBEAT not in robot.kinds()
+    with live.websocket_connect(f"{SOCKET}/api/live", headers={"Origin": ORIGIN}) as socket:
+
+        def heard() -> bool:
+            socket.send_text('{"heartbeat": 1}')
+            return RequestKind.HEARTBEAT in robot.kinds()
+
+        assert until(heard, 10.0)
+        assert live.get("/api/robot").json()["operators"] == 1
+    assert until(lambda: live.get("/api/robot").json()["operators"] == 0)
+
+
+@pytest.mark.parametrize("origin", ["http://evil.example", "null", ""])
+def test_a_foreign_page_gets_no_feed(live: TestClient, origin: str) -> None:
+    for path in ("/api/live", "/scene"):
+        with (
+            pytest.raises(WebSocketDisconnect),
+            live.websocket_connect(f"{SOCKET}{path}", headers={"Origin": origin}),
+        ):
+            pass
+
+
+def test_nobody_gets_a_feed_without_a_login(live: TestClient) -> None:
+    live.cookies.clear()
+    with pytest.raises(WebSocketDisconnect), live.websocket_connect(f"{SOCKET}/api/live", headers={"Origin": ORIGIN}):
+        pass
+
+
+@pytest.mark.parametrize("words", ['{"heartbeat": -1}', "[]", "x" * 5000, '{"heartbeat": 1, "drive": true}'])
+def test_a_browser_may_only_say_that_it_lives(live: TestClient, words: str) -> None:
+    with live.websocket_connect(f"{SOCKET}/api/live", headers={"Origin": ORIGIN}) as socket:
+        socket.send_text(words)
+        with pytest.raises(WebSocketDisconnect):
+            read_topics(socket, 100_000)
+
+
+def test_the_feed_ends_with_the_login(live: TestClient) -> None:
+    with live.websocket_connect(f"{SOCKET}/api/live", headers={"Origin": ORIGIN}) as socket:
+        read_topics(socket, 3)
+        live.post("/api/session/logout")
+        with pytest.raises(WebSocketDisconnect) as ended:
+            read_topics(socket, 100_000)
+    assert ended.value.code == 4401
+
+
+def test_the_newest_message_of_a_topic_replaces_the_older() -> None:
+    async def fill() -> list[str | bytes]:
+        outbox = Outbox()
+        for number in range(1000):
+            outbox.put("nav/status", f"{number}")
+            outbox.put("camera/view", b"%d" % number)
+        return await outbox.take()
+
+    assert asyncio.run(fill()) == ["999", b"999"]
+
+
+def test_a_stale_status_is_not_shown_to_a_new_browser(robot: PlayedRobot, client: TestClient) -> None:
+    assert until(lambda: client.get("/api/live/latest").json()["nav/status"] is not None)
+    robot.close()
+    assert until(lambda: client.get("/api/live/latest").json()["nav/status"] is None)
+
+
+def test_the_frame_holds_the_bytes_of_the_bus() -> None:
+    payload = b'{"stamp_ns": 1,  "odd spacing": true}'
+    assert framed(Received("nav/status", payload, b"")) == '{"topic":"nav/status","data":' + payload.decode() + "}"
+    binary = framed(Received(CAMERA_VIEW.name, payload, JPEG))
+    assert isinstance(binary, bytes)
+    assert binary.endswith(JPEG)
+    assert payload in binary
+
+
+@pytest.fixture
+def processes() -> Iterator[list[StationProcess]]:
+    started: list[StationProcess] = []
+    yield started
+    for station in started:
+        if station.process.poll() is None:
+            station.kill(signal.SIGKILL)
+        if station.process.stdout is not None:
+            station.process.stdout.close()
+
+
+def test_a_killed_station_comes_back_without_moving_anything(
+    robot: PlayedRobot, settings: Settings, processes: list[StationProcess]
+) -> None:
+    robot.state, robot.run_id = RunState.DRIVING, "a" * 16
+    first = StationProcess(settings)
+    processes.append(first)
+    first.enter()
+    before = robot.x
+    assert first.kill(signal.SIGKILL) == -signal.SIGKILL
+    assert until(lambda: robot.x > before + 0.2)
+    second = StationProcess(settings, first.port)
+    processes.append(second)
+    second.enter()
+    assert robot.state is RunState.DRIVING
+    assert set(robot.kinds()) <= {RequestKind.HEARTBEAT}
+    assert first.token not in first.log.read_text()
+    assert second.token not in first.log.read_text()
+    assert "GET /enter" in first.log.read_text()
+    assert second.kill(signal.SIGTERM) in (0, -signal.SIGTERM)
