@@ -411,7 +411,7 @@ export interface paths {
         put?: never;
         /**
          * Import Site
-         * @description A new site from GeoJSON.
+         * @description A new site from GeoJSON, with what was noticed and put right on the way.
          */
         post: operations["import_site_api_sites_import_post"];
         delete?: never;
@@ -810,6 +810,30 @@ export interface components {
             u: number;
             /** V */
             v: number;
+        };
+        /**
+         * ImportedSite
+         * @description A site made from a file, and what was noticed in it: sentences for the operator.
+         */
+        ImportedSite: {
+            /**
+             * Id
+             * @description Made by the station
+             */
+            id: string;
+            /** Name */
+            name: string;
+            /** Notes */
+            notes: string[];
+            orthophoto: components["schemas"]["OrthophotoInfo"] | null;
+            site: components["schemas"]["SiteMap"];
+            /**
+             * Updated
+             * Format: date-time
+             */
+            updated: string;
+            /** Version */
+            version: number;
         };
         /**
          * Invitation
@@ -2643,7 +2667,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["SiteDocument"];
+                    "application/json": components["schemas"]["ImportedSite"];
                 };
             };
             /** @description Any error */
