@@ -43,12 +43,10 @@ class StationProcess:
             "ROWPILOT_PORT": str(port),
         }
         self.log = settings.data_dir.parent / "station.log"
-        self.process = subprocess.Popen(
-            [sys.executable, "-m", "backend"],
-            env=self._environment,
-            stdout=subprocess.PIPE,
-            stderr=self.log.open("ab"),
-        )
+        with self.log.open("ab") as log:
+            self.process = subprocess.Popen(
+                [sys.executable, "-m", "backend"], env=self._environment, stdout=subprocess.PIPE, stderr=log
+            )
         self.address, self.token = self._read_address()
         self.port = int(self.address.rpartition(":")[2])
         self.cookie = ""
