@@ -28,7 +28,6 @@ from navcore.transport.pubsub import Received
 from tests.backend.conftest import ORIGIN
 from tests.backend.played_robot import JPEG, PlayedRobot, until
 
-
 SOCKET = ORIGIN.replace("http", "ws")
 
 
