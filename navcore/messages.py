@@ -316,6 +316,7 @@ class NavStatus:
         progress: driven part of the mission, 0 to 1.
         remaining: metres to the mission's end.
         speed_limit: m/s after all regulation, with `speed_reason` naming the tightest cause.
+        stop_reason: why the mission was stopped, kept until it goes on or is acknowledged; else empty.
     """
 
     stamp_ns: int
@@ -342,6 +343,7 @@ class NavStatus:
     guard: str
     guard_reason: str
     events: tuple[ActiveEvent, ...]
+    stop_reason: str = ""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

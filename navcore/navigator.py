@@ -200,8 +200,11 @@ class Navigator:
         """Look all events up, and let their effects change the mission's state."""
         facts = event_facts(self._situation(), at.now_ns, tick_s=tick_s, stuck=self._stuck(at.now_ns))
         events = active_events(facts, self.params.events)
+        before = self.state
         self._change_state(at.now_ns, events, request)
         self._events.update(at.now_ns, events, facts)
+        stopped = self.state is RunState.STOPPED
+        self._events.remember_stop(stopped=stopped, just_now=stopped and before is not RunState.STOPPED)
 
     def _change_state(self, now_ns: int, events: tuple[Event, ...], request: RequestKind | None) -> None:
         c = Circumstances(

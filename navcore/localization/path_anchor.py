@@ -28,6 +28,7 @@ class PathAnchorParams:
         growth_lateral: 1-sigma of the lateral drift of odometry, m per square root of m driven, > 0.
         growth_heading: 1-sigma of the heading drift, rad per square root of m driven, > 0.
         map_lateral: 1-sigma of where a drawn row lies, m (survey by orthophoto: 0.3 to 0.8 m).
+        next_lateral: 1-sigma of where the next row lies, seen from the one that was just left, m.
         map_heading: 1-sigma of its direction, rad.
         map_along: 1-sigma of where it begins and ends, m.
         gate: a row end that lies further off than so many 1-sigma is not believed.
@@ -40,7 +41,8 @@ class PathAnchorParams:
     turn: float = 0.10
     growth_lateral: float = 0.02
     growth_heading: float = 0.005
-    map_lateral: float = 0.6
+    map_lateral: float = 0.45
+    next_lateral: float = 0.2
     map_heading: float = 0.03
     map_along: float = 0.8
     growth_along: float = 0.15
@@ -78,6 +80,12 @@ class PathAnchor:
         """Forget how well the drawn row is known: the next row is told by the map alone."""
         p = self.params
         self.var_lateral, self.var_heading, self.var_along = p.map_lateral**2, p.map_heading**2, p.map_along**2
+
+    def next_row(self) -> None:
+        """Another row, reached from the last one: the map knows their distance better than their place."""
+        p = self.params
+        self.var_lateral = max(self.var_lateral, p.next_lateral**2)
+        self.var_heading, self.var_along = p.map_heading**2, p.map_along**2
 
     def drive(self, distance: float) -> None:
         """Let the uncertainty grow over a driven distance, m."""

@@ -18,12 +18,13 @@ class RowEvidenceParams:
 
     Attributes:
         gate: largest disagreement with the expected row, as a share of the corridor width, in (0, 0.5): beyond half a
-            width the neighbouring row would be the nearer one.
+            width the neighbouring row would be the nearer one. It holds by the tie to what was seen before, and
+            outside the row by GNSS as well: a fit that begins between two rows may creep over to the wrong one.
         heading_gate: largest disagreement of the direction, rad.
         min_quality: 0 to 1.
     """
 
-    gate: float = 0.42
+    gate: float = 0.38
     heading_gate: float = 0.35
     min_quality: float = 0.15
 
@@ -41,13 +42,13 @@ class RowEvidence:
         self.agreeing: RowObservation | None = None
         self.streak = 0
 
-    def judge(self, seen: RowObservation, row: RowLine, T_map_drive: SE2, width: float) -> bool:
+    def judge(self, seen: RowObservation, row: RowLine, expected: tuple[SE2, ...], width: float) -> bool:
         """Take one observation; True if it is valid and of the row that is meant.
 
-        `T_map_drive` is the expected pose of the driving frame at the time of capture.
+        `expected` are the poses of the driving frame in `map` at the time of capture, by all who know it.
         """
         self.newest = seen
-        agrees = self._agrees(seen, row.coordinates(T_map_drive), width)
+        agrees = all(self._agrees(seen, row.coordinates(pose), width) for pose in expected)
         self.streak = self.streak + 1 if agrees else 0
         if agrees:
             self.agreeing = seen

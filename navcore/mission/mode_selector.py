@@ -25,7 +25,7 @@ class ModeSelectorParams:
         gnss_streak: good epochs in a row before it does.
     """
 
-    streak: int = 3
+    streak: int = 5
     lost_s: float = 1.0
     end_zone: float = 2.5
     again: float = 5.0

@@ -70,6 +70,10 @@ class Position:
     standing: bool
     lean: tuple[float, float] = (0.0, 0.0)
 
+    def gnss_good(self, params: ModeSelectorParams) -> bool:
+        """Good enough to say which row is which."""
+        return self.gnss_std is not None and self.gnss_std <= params.gnss_std and self.gnss_streak > 0
+
 
 class Pilot:
     """Follows one plan from its first leg to its last."""
@@ -82,6 +86,7 @@ class Pilot:
         self.carried = 0.0
         self.arrived = False
         self.captured = False
+        self._comes_from_gnss = True
         self._at = start
         self.place = Place(0, 0.0)
         self.pose = self._drive(T_map_base)
@@ -141,7 +146,7 @@ class Pilot:
         row, segment = self.row_line(), self._row_segment()
         if row is None or segment is None or seen.camera is not self._camera():
             return
-        expected = self.anchor.T_map_odom @ T_odom_drive
+        expected = self._expected(T_odom_drive)
         if not self.row.judge(seen, row, expected, segment.corridor_width or 3.0) or self.mode not in ON_CAMERA:
             return
         if seen.offset is not None and seen.heading is not None:
@@ -150,6 +155,14 @@ class Pilot:
         if self.mode is NavMode.ROW and seen.end_distance is not None:
             along = self._row_length(segment) - seen.end_distance
             self.anchor.see_along(row, T_odom_drive, along, self.params.end_std)
+
+    def _expected(self, T_odom_drive: SE2) -> tuple[SE2, ...]:
+        """Poses of the driving frame at a capture: by the anchor, and before the entrance by good GNSS too."""
+        at, by_anchor = self._at, self.anchor.T_map_odom @ T_odom_drive
+        on_the_way_in = self.mode in (NavMode.GNSS_PATH, NavMode.ROW_ENTRY) and self._comes_from_gnss
+        if at.T_map_base is None or not on_the_way_in or not at.gnss_good(self.params.mode):
+            return (by_anchor,)
+        return by_anchor, at.T_map_base @ at.T_odom_base.inverse() @ T_odom_drive
 
     def _project(self, near_s: float | None) -> Projection:
         return self.leg.line.project(self.pose.x, self.pose.y, near_s, self.params.search)
@@ -189,10 +202,13 @@ class Pilot:
         )
 
     def _on_switch(self, before: NavMode) -> None:
-        if self.mode in ON_CAMERA and before not in ON_CAMERA:
+        if self.mode is NavMode.GNSS_PATH:
             self.anchor.unsure()
+            self._comes_from_gnss = True
         if self.mode is NavMode.HEADLAND:
+            self.anchor.next_row()
             self.row.forget()
+            self._comes_from_gnss = False
 
     def _row_segment(self) -> PathSegment | None:
         """The segment whose row matters here: this one's, or the next entry's when it is near."""

@@ -14,6 +14,7 @@ class ActiveEvents:
 
     def __init__(self) -> None:
         self.on: tuple[ActiveEvent, ...] = ()
+        self.stop_reason = ""
         self.effects: frozenset[Effect] = frozenset()
 
     def update(self, now_ns: int, events: tuple[Event, ...], facts: EventFacts) -> None:
@@ -29,6 +30,14 @@ class ActiveEvents:
             for event in events
         )
         self.effects = frozenset(effect for event in events for effect in event.effects)
+
+    def remember_stop(self, *, stopped: bool, just_now: bool) -> None:
+        """Keep why the mission was stopped for as long as it is; an operator's stop has no event."""
+        if not stopped:
+            self.stop_reason = ""
+        elif just_now:
+            texts = [event.text for event in self.on if Effect.STOP in event.effect]
+            self.stop_reason = " ".join(texts) or "Stopped by an operator."
 
 
 def nav_status(now: Situation, now_ns: int, events: ActiveEvents) -> NavStatus:
@@ -60,4 +69,5 @@ def nav_status(now: Situation, now_ns: int, events: ActiveEvents) -> NavStatus:
         guard=chassis.guard.name.lower() if chassis else "silent",
         guard_reason=chassis.guard_reason if chassis else "No word from the chassis.",
         events=events.on,
+        stop_reason=events.stop_reason,
     )

@@ -42,7 +42,7 @@ def mission_for_row(
     outbound, from_start = min(ways, key=lambda found: _length(site, found[0], DrivenRow(row, found[1]).entrance))
     visits = _visits(site, row, from_start, row_exit)
     return Mission(
-        id=f"row-{row_id}", name=f"Row {row.name or row.id}", outbound=outbound, visits=visits,
+        id=f"row-{row_id}", name=row.name or f"Row {row.id}", outbound=outbound, visits=visits,
         inbound=_inbound(site, visits, from_start, params),
     )  # fmt: skip
 

@@ -6,13 +6,14 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from navcore.geometry.se2 import SE2
-from navcore.messages import CameraName, CameraRequest, CameraView
+from navcore.messages import CameraName, CameraRequest, CameraView, RowObservation
 from navcore.perception.detector import Image
 from navcore.perception.levelling import USUAL_WIDTH, leaning_offset, levelled
 from navcore.perception.row_lines import RowPrior
 from navcore.perception.row_perception import RowPerception
 
 LEAST_PRIOR_STD = 0.15
+WRONG_ROW = 0.38
 
 
 class RowEye:
@@ -32,6 +33,8 @@ class RowEye:
         self._last = request
         prior = row_prior(request, self._height)
         view = perception.process(image, stamp_ns, request.camera, prior=prior, motion=motion, latency_ms=latency_ms)
+        if _is_another_row(view.row, prior):
+            perception.forget()
         return replace(view, row=levelled(view.row, self._height, request.roll))
 
     def _motion(self, request: CameraRequest) -> SE2 | None:
@@ -49,6 +52,13 @@ def row_prior(request: CameraRequest, camera_height: float) -> RowPrior | None:
     std = max(request.offset_std or 0.0, LEAST_PRIOR_STD)
     offset = leaning_offset(request.offset, request.width or USUAL_WIDTH, camera_height, request.roll)
     return RowPrior(offset=offset, heading=request.heading, std=std, width=request.width)
+
+
+def _is_another_row(seen: RowObservation, prior: RowPrior | None) -> bool:
+    """A line further from the expected one than a share of the width is not worth following on."""
+    if prior is None or not seen.valid or seen.offset is None:
+        return False
+    return abs(seen.offset - prior.offset) > WRONG_ROW * (prior.width or USUAL_WIDTH)
 
 
 def _odom(request: CameraRequest) -> SE2:

@@ -11,7 +11,9 @@ from navcore.maps.mission import RowExit
 from navcore.maps.site_map import SiteMap
 from navcore.messages import NavMode, RunState
 from navcore.planning.mission_planner import mission_for_row
-from tests.missions.conftest import Drive
+from navcore.sim.demo_farm import demo_farm
+from navcore.sim.world import WorldParams
+from tests.missions.conftest import Drive, new_drive
 
 
 @pytest.mark.parametrize("seed", [1, 2])
@@ -26,3 +28,13 @@ def test_robot_drives_into_a_row_and_back_out_in_reverse(
     assert statistics.mean(lateral) < 0.10  # m
     assert max(lateral) < 0.30  # m
     assert [s.after for s in drive.switches][:2] == [NavMode.ROW_ENTRY, NavMode.ROW]
+
+
+def test_the_row_that_is_meant_is_entered_although_a_first_look_fits_between_two() -> None:
+    """On this farm the first pictures, half turned towards the row, fit a corridor that creeps to the neighbour."""
+    site = demo_farm()
+    drive = new_drive(site, WorldParams(seed=1))
+    drive.start(site, mission_for_row(site, "row-4", RowExit.REVERSE))
+    drive.until_mode(NavMode.ROW)
+    drive.until(lambda _: False, seconds=3)
+    assert max(abs(e) for e in drive.lateral_in_rows()) < 0.30  # m

@@ -56,6 +56,7 @@ def test_operator_stop_stands_within_a_second_and_stays(park: Park, farm: SiteMa
     tick = drive.until(lambda tick: not stands(tick), seconds=10)
     assert stands(tick)
     assert tick.decision.status.state is RunState.STOPPED
+    assert tick.decision.status.stop_reason == "Stopped by an operator."
 
 
 def test_a_stopped_mission_is_resumed_only_by_a_deliberate_request(park: Park, farm: SiteMap) -> None:
@@ -92,6 +93,7 @@ def test_silent_gnss_slows_then_stops_on_the_road(park: Park, farm: SiteMap) -> 
     assert seconds_until(drive, lambda t: "gnss_old" in events(t), limit=2.0) <= 1.6  # s: age 1.0 and latency
     seconds_until(drive, lambda t: t.decision.status.state is RunState.STOPPED, limit=3.0)
     seconds_until(drive, stands, limit=2.0)
+    assert "GNSS" in drive.ticks[-1].decision.status.stop_reason
 
 
 def test_silent_gnss_does_not_matter_in_the_row(park: Park, farm: SiteMap) -> None:

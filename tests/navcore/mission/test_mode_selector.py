@@ -13,7 +13,7 @@ OPEN_ROAD = ModeFacts(
     segment=SegmentKind.ROAD, to_start=None, to_end=None, row_streak=0, row_age_s=None, seen_end=None,
     gnss_std=0.02, gnss_streak=100,
 )  # fmt: skip
-BEFORE_ROW = replace(OPEN_ROAD, segment=SegmentKind.ENTRY, to_start=3.0, to_end=63.0, row_streak=3, row_age_s=0.1)
+BEFORE_ROW = replace(OPEN_ROAD, segment=SegmentKind.ENTRY, to_start=3.0, to_end=63.0, row_streak=5, row_age_s=0.1)
 IN_ROW = replace(BEFORE_ROW, segment=SegmentKind.ROW, to_start=-30.0, to_end=30.0, gnss_std=1.5, gnss_streak=0)
 AT_END = replace(IN_ROW, to_end=1.0, seen_end=1.0)
 LEFT_ROW = replace(AT_END, segment=SegmentKind.EXIT, to_end=-2.0, row_streak=0, gnss_std=0.02, gnss_streak=10)
@@ -25,7 +25,7 @@ def mode_after(before: NavMode, facts: ModeFacts) -> NavMode:
 
 def test_camera_takes_over_before_the_entrance_once_the_row_is_seen_repeatedly() -> None:
     assert mode_after(NavMode.GNSS_PATH, BEFORE_ROW) is NavMode.ROW_ENTRY
-    assert mode_after(NavMode.GNSS_PATH, replace(BEFORE_ROW, row_streak=2)) is NavMode.GNSS_PATH
+    assert mode_after(NavMode.GNSS_PATH, replace(BEFORE_ROW, row_streak=4)) is NavMode.GNSS_PATH
 
 
 def test_no_row_is_entered_from_the_road() -> None:

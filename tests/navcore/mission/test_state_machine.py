@@ -27,14 +27,14 @@ def circumstances(
 ALL = list(product(RunState, EFFECT_SETS, REQUESTS, (False, True), (False, True)))
 
 
-@pytest.mark.parametrize("state", list(UNDER_WAY))
+@pytest.mark.parametrize("state", sorted(UNDER_WAY))
 def test_stop_effect_stops_whatever_else_is_on(state: RunState) -> None:
     for _, effects, request, armed, arrived in ALL:
         if Effect.STOP in effects:
             assert next_state(state, circumstances(effects, request, armed, arrived)) is RunState.STOPPED
 
 
-@pytest.mark.parametrize("state", list(UNDER_WAY))
+@pytest.mark.parametrize("state", sorted(UNDER_WAY))
 def test_stop_request_stops_whatever_else_is_on(state: RunState) -> None:
     for effects in EFFECT_SETS:
         assert next_state(state, circumstances(effects, RequestKind.STOP)) is RunState.STOPPED
