@@ -8,6 +8,7 @@ from fastapi import APIRouter, BackgroundTasks, Query, Response
 from fastapi.responses import FileResponse
 
 from backend.deps import ERRORS, PathId, TheLogin, TheStation
+from backend.growing_file import GrowingFileResponse
 from backend.run_camera import picture_at
 from backend.schemas import (
     ActionResult,
@@ -86,4 +87,4 @@ def camera(station: TheStation, run_id: PathId, t_s: Annotated[float, Query(ge=0
 def download(station: TheStation, run_id: PathId, format: LogFormat = LogFormat.MCAP) -> FileResponse:  # noqa: A002
     """The run log, or one of its exports."""
     path = station.exports.download(station.runs.log_path(run_id), format)
-    return FileResponse(path, filename=f"run-{run_id}.{format}", content_disposition_type="attachment")
+    return GrowingFileResponse(path, filename=f"run-{run_id}.{format}", content_disposition_type="attachment")
