@@ -21,6 +21,7 @@ class RunFigures:
         started_ns: monotonic time of its first status.
         distance_m: integral of |v| over the statuses.
         abs_error_m: integral of |lateral error| over the driven distance, m^2.
+        stop_reason: why it was stopped, kept after the stop is acknowledged; empty once it drives on.
     """
 
     run_id: str
@@ -34,6 +35,7 @@ class RunFigures:
     switches: int = 0
     holds: int = 0
     outcome: RunOutcome = RunOutcome.STARTING
+    stop_reason: str = ""
     fresh_events: list[RunEventDocument] = field(default_factory=list)
 
     def add(self, status: NavStatus) -> None:
@@ -43,6 +45,8 @@ class RunFigures:
         before, self.last = self.last, status
         if before is not None:
             self._integrate(before, status)
+        if status.stop_reason or status.state in MOVING:
+            self.stop_reason = status.stop_reason
         self._note_changes(before, status)
 
     def add_switch(self, switch: ModeSwitch) -> None:
@@ -107,8 +111,9 @@ class RunFigures:
         }
 
     def _reason(self) -> str:
-        """Why it stands: the texts of what is on now."""
-        return " ".join(event.text for event in self.last.events) if self.last else ""
+        """Why it stands: what stopped it, else the texts of what is on now."""
+        events = self.last.events if self.last else ()
+        return self.stop_reason or " ".join(event.text for event in events)
 
 
 def resumed(run: RunDocument) -> RunFigures:
@@ -123,4 +128,5 @@ def resumed(run: RunDocument) -> RunFigures:
         switches=run.mode_switches,
         holds=run.holds,
         outcome=run.outcome,
+        stop_reason=run.reason if run.outcome is RunOutcome.STOPPED else "",
     )

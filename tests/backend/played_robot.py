@@ -52,6 +52,7 @@ class PlayedRobot:
         self.state = RunState.IDLE
         self.run_id: str | None = None
         self.x = 0.0
+        self.stop_reason = ""
         self.refusals: tuple[str, ...] = ()
         self.camera = False
         self.requests: list[Request] = []
@@ -84,7 +85,7 @@ class PlayedRobot:
             pose=PoseEstimate(stamp_ns=now_ns, x=self.x, y=0.0, yaw=0.0, v=0.8, omega=0.0, covariance=covariance,
                               source="filter"),
             gnss_quality=FixQuality.RTK_FIXED, gnss_age_s=0.1, row_age_s=None, guard="armed", guard_reason="",
-            events=(),
+            events=(), stop_reason=self.stop_reason,
         )  # fmt: skip
 
     def _navigate(self) -> None:

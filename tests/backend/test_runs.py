@@ -155,6 +155,29 @@ def test_a_run_is_summed_up_logged_and_downloaded(
     assert stations_words.status_code == 422
 
 
+def test_a_stopped_run_keeps_why_it_was_stopped(
+    client: TestClient, robot: PlayedRobot, ready: dict[str, Any]
+) -> None:
+    run_id = start(client, ready).json()["id"]
+
+    def run() -> Any:
+        return client.get(f"/api/runs/{run_id}").json()
+
+    assert until(lambda: run()["outcome"] == "running")
+    robot.stop_reason = "The bumper was touched."
+    robot.state = RunState.STOPPED
+    assert until(lambda: run()["outcome"] == "stopped")
+    assert run()["reason"] == robot.stop_reason
+    robot.stop_reason = ""
+    robot.state = RunState.IDLE
+    assert until(lambda: run()["state"] == "idle")
+    assert run()["reason"] == "The bumper was touched."
+    assert client.get("/api/runs").json()[0]["reason"] == "The bumper was touched."
+    robot.state = RunState.DRIVING
+    assert until(lambda: run()["outcome"] == "running")
+    assert run()["reason"] == ""
+
+
 def test_a_mission_cannot_start_without_a_robot(
     client: TestClient, robot: PlayedRobot, ready: dict[str, Any]
 ) -> None:

@@ -1069,6 +1069,7 @@ export interface components {
          *         progress: driven part of the mission, 0 to 1.
          *         remaining: metres to the mission's end.
          *         speed_limit: m/s after all regulation, with `speed_reason` naming the tightest cause.
+         *         stop_reason: why the mission was stopped, kept until it goes on or is acknowledged; else empty.
          */
         NavStatus: {
             /** Battery V */
@@ -1113,6 +1114,11 @@ export interface components {
             /** Stamp Ns */
             stamp_ns: number;
             state: components["schemas"]["RunState"];
+            /**
+             * Stop Reason
+             * @default
+             */
+            stop_reason: string;
             /** V */
             v: number;
         };

@@ -2,7 +2,7 @@ import type { MissionDocument, Preview, SiteDocument } from "../api/types";
 import { useFresh, useTopic } from "../live/hooks";
 import { way } from "../ui/format";
 import { Reasons } from "../ui/Reasons";
-import { MODE_COLORS, headline } from "../ui/words";
+import { MODE_COLORS, headline, why } from "../ui/words";
 import { Controls } from "./Controls";
 import css from "./drive.module.css";
 
@@ -20,24 +20,24 @@ export function Banner(props: Props) {
   const fresh = useFresh("nav/status");
   const names = new Map(props.document.site.rows.map(({ id, name }) => [id, name]));
   const color = fresh && status?.state === "driving" ? MODE_COLORS[status.mode] : "transparent";
+  const stopped = fresh && !!status?.stop_reason;
+  const events = (fresh && status?.events.filter(({ text }) => !status.stop_reason.includes(text))) || []; // what stopped it is told above
   return (
     <section className={css.banner} style={{ "--mode": color } as React.CSSProperties}>
       <div className={css.words} aria-live="polite">
         <h1>{fresh && status ? headline(status, names) : "No news from the robot"}</h1>
-        <p>{fresh && status ? why(status.mode_reason) : "Controls are off until data arrive. STOP still works."}</p>
+        <p className={stopped ? css.stopped : undefined}>{fresh && status ? why(status) : "Controls are off until data arrive. STOP still works."}</p>
       </div>
       {status && fresh && status.run_id && status.state !== "idle" && <Progress progress={status.progress} remaining={status.remaining} />}
       <Controls {...props} />
-      {fresh && status && status.events.length > 0 && (
+      {events.length > 0 && (
         <div className={css.events}>
-          <Reasons reasons={status.events.map(({ text }) => text)} tone={status.events.some(({ effect }) => effect === "STOP") ? "bad" : "warn"} />
+          <Reasons reasons={events.map(({ text }) => text)} tone={events.some(({ effect }) => effect === "STOP") ? "bad" : "warn"} />
         </div>
       )}
     </section>
   );
 }
-
-const why = (reason: string) => reason.charAt(0).toUpperCase() + reason.slice(1);
 
 function Progress({ progress, remaining }: { progress: number; remaining: number }) {
   return (

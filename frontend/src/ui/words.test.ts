@@ -2,7 +2,7 @@ import { describe, expect, test } from "vitest";
 
 import type { NavStatus } from "../api/types";
 import { bytes, centimetres, degrees, duration, metres, way } from "./format";
-import { headline, positionSigma } from "./words";
+import { headline, positionSigma, why } from "./words";
 
 const STATUS = {
   state: "driving",
@@ -22,6 +22,12 @@ describe("the headline says what the robot drives on", () => {
     expect(headline({ ...STATUS, mode: "row", row_id: "row-3" })).toBe("In row 3 on the camera"));
   test("a stopped robot is stopped, whatever its mode was", () =>
     expect(headline({ ...STATUS, state: "stopped", mode: "row" })).toBe("Stopped"));
+});
+
+test("a stopped robot says why it was stopped, a driving one why it drives so", () => {
+  const driving = { ...STATUS, mode_reason: "by GNSS", stop_reason: "" };
+  expect(why(driving)).toBe("By GNSS");
+  expect(why({ ...driving, stop_reason: "The emergency stop is pressed." })).toBe("The emergency stop is pressed.");
 });
 
 test("accuracy is the larger axis of the ellipse", () => expect(positionSigma([0.01, 0, 0, 0, 0.04])).toBeCloseTo(0.2));

@@ -105,3 +105,9 @@ export function headline(status: NavStatus, names?: ReadonlyMap<string, string>)
       return STATE_WORDS.driving;
   }
 }
+
+/** Why it does what it does; of a stopped robot, why it was stopped. */
+export function why({ stop_reason, mode_reason }: NavStatus): string {
+  const reason = stop_reason || mode_reason;
+  return reason.charAt(0).toUpperCase() + reason.slice(1);
+}
