@@ -41,6 +41,7 @@ def state_is(page: Page, word: str, timeout_s: float = 60.0) -> None:
 
 def start_mission(page: Page) -> None:
     """The deliberate start: open the sheet, then hold the button."""
+    wait_until(page, "the receiver has its fix", lambda: gauge(page, "GNSS") == "RTK fixed")
     page.get_by_role("button", name="Start …").click()
     hold = page.get_by_role("button", name="Hold to start")
     wait_until(page, "the mission is under way", lambda: hold.count() == 0 or _hold(page, hold), START_S)
