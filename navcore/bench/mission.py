@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import multiprocessing
 import os
-import platform
-import subprocess
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -13,6 +11,7 @@ from pathlib import Path
 
 from navcore.bench.mission_cases import CaseParams, MissionCase, mission_cases
 from navcore.bench.mission_result import MissionResult, append_result, missing, read_results, run_case
+from navcore.bench.provenance import commit, machine
 
 RESULTS = "missions.jsonl"
 # One thread each: two missions side by side keep two cores busy as they are.
@@ -44,7 +43,7 @@ def run_bench(
         append_result(folder / RESULTS, result)
         done[result.case.id] = result
         progress(result, len(missing(cases, done)))
-    return Bench(results=tuple(done[c.id] for c in cases), commit=_commit(), machine=_machine())
+    return Bench(results=tuple(done[c.id] for c in cases), commit=commit(), machine=machine())
 
 
 def _driven(cases: list[MissionCase], processes: int) -> Iterator[MissionResult]:
@@ -68,25 +67,3 @@ def _single_threaded() -> Iterator[None]:
                 del os.environ[name]
             else:
                 os.environ[name] = value
-
-
-def _commit() -> str:
-    def git(*arguments: str) -> str:
-        here = Path(__file__).parent
-        found = subprocess.run(["git", *arguments], cwd=here, capture_output=True, text=True, check=True)
-        return found.stdout.strip()
-
-    try:
-        return git("rev-parse", "--short", "HEAD") + ("+" if git("status", "--porcelain", "-uno") else "")
-    except (OSError, subprocess.CalledProcessError):
-        return "unknown"
-
-
-def _machine() -> str:
-    """Processor and number of cores, as far as the system tells."""
-    name = platform.processor() or platform.machine()
-    cpuinfo = Path("/proc/cpuinfo")
-    if cpuinfo.exists():
-        models = [a.partition(":")[2].strip() for a in cpuinfo.read_text().splitlines() if a.startswith("model name")]
-        name = models[0] if models else name
-    return f"{name}, {os.cpu_count()} cores, {platform.system()} {platform.release()}"

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 if TYPE_CHECKING:
-    from navcore.bench.mission import Bench
+    from navcore.bench.loop import LoopParams
     from navcore.bench.mission_figures import Figure
     from navcore.bench.mission_result import MissionResult
 
@@ -41,6 +41,7 @@ def bench_mission(
 
     from navcore.bench.mission import run_bench
     from navcore.bench.mission_cases import CaseParams, EyeKind, Farms
+    from navcore.bench.mission_figures import mission_figures
     from navcore.errors import InputError
 
     try:
@@ -54,7 +55,47 @@ def bench_mission(
     except InputError as error:
         typer.echo(str(error), err=True)
         raise typer.Exit(BAD_INPUT) from None
-    typer.echo(_json(bench, quick) if as_json else _table(bench))
+    figures, made = mission_figures(bench.results), (bench.commit, bench.machine)
+    typer.echo(_report(figures, *made, quick) if as_json else _lines(figures, *made))
+
+
+@bench_app.command("loop")
+def bench_loop(
+    quick: Annotated[bool, typer.Option("--quick", help="Two minutes instead of eleven.")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="One JSON object with figures, commit, machine.")] = False,
+    minutes: Annotated[float | None, typer.Option(min=1, help="Of driving, both phases together.")] = None,
+    browsers: Annotated[int, typer.Option(min=0, max=8, help="Headless browsers on Drive.")] = 2,
+    imports: Annotated[bool, typer.Option(help="Import an orthophoto all the while.")] = True,
+) -> None:
+    """The whole station in real time: ticks, lateness, from picture to CAN frame, from stop click to zero."""
+    from dataclasses import replace
+
+    from navcore.bench.loop import QUICK, LoopParams
+    from navcore.errors import RowpilotError
+
+    params = replace(QUICK if quick else LoopParams(), browsers=browsers, imports=imports)
+    if minutes is not None:
+        params = replace(params, phase_s=minutes * 30)
+    try:
+        _measure_loop(params, quick, as_json)
+    except RowpilotError as error:
+        typer.echo(str(error), err=True)
+        raise typer.Exit(1) from None
+
+
+def _measure_loop(params: LoopParams, quick: bool, as_json: bool) -> None:
+    import tempfile
+    from contextlib import closing
+
+    from navcore.bench.loop import LoopBench
+    from navcore.bench.loop_figures import loop_figures
+    from navcore.bench.provenance import commit, machine
+
+    folder = Path(tempfile.mkdtemp(prefix="rowpilot-loop-"))
+    typer.echo(f"Database and logs are kept in {folder}", err=True)
+    with closing(LoopBench(folder, params, lambda line: typer.echo(line, err=True))) as bench:
+        figures = loop_figures(bench.run())
+    typer.echo(_report(figures, commit(), machine(), quick) if as_json else _lines(figures, commit(), machine()))
 
 
 def _progress(result: MissionResult, left: int) -> None:
@@ -69,23 +110,17 @@ def _blemish(result: MissionResult) -> str:
     return f" ({', '.join(found)})" if found else ""
 
 
-def _json(bench: Bench, quick: bool) -> str:
+def _report(figures: tuple[Figure, ...], commit: str, machine: str, quick: bool) -> str:
     import dataclasses
     import json
 
-    from navcore.bench.mission_figures import mission_figures
-
-    rows = [dataclasses.asdict(figure) for figure in mission_figures(bench.results)]
-    body = {"commit": bench.commit, "machine": bench.machine, "quick": quick, "figures": rows}
+    rows = [dataclasses.asdict(figure) for figure in figures]
+    body = {"commit": commit, "machine": machine, "quick": quick, "figures": rows}
     return json.dumps(body, indent=1, allow_nan=False)
 
 
-def _table(bench: Bench) -> str:
-    from navcore.bench.mission_figures import mission_figures
-
-    lines = [f"commit {bench.commit}, {bench.machine}", ""]
-    lines += [_row(figure) for figure in mission_figures(bench.results)]
-    return "\n".join(lines)
+def _lines(figures: tuple[Figure, ...], commit: str, machine: str) -> str:
+    return "\n".join([f"commit {commit}, {machine}", "", *map(_row, figures)])
 
 
 def _row(f: Figure) -> str:

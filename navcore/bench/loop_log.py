@@ -1,0 +1,107 @@
+"""What a run log tells of the control loop: when each tick began, and how old the picture behind a frame was."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from navcore.bench.loop_bus import MotionFrame
+from navcore.messages import Decision, NavInputs
+from navcore.recording.reader import read_decisions, read_inputs
+
+TICK_NS = 20_000_000
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LoopRecord:
+    """Ticks of one stretch of a log.
+
+    Attributes:
+        tick_ns: (N,) monotonic time at which each tick began.
+        exposures: of the pictures that a tick consumed, (exposure, tick), monotonic ns.
+        commanding_ns: ticks that sent a command.
+    """
+
+    tick_ns: NDArray[np.int64]
+    exposures: tuple[tuple[int, int], ...]
+    commanding_ns: frozenset[int]
+
+
+def read_record(log: Path) -> LoopRecord:
+    """Of a whole log. Raises LogError."""
+    ticks: list[int] = []
+    exposures: list[tuple[int, int]] = []
+    for inputs in read_inputs(log):
+        ticks.append(inputs.now_ns)
+        exposures += _exposures(inputs)
+    commanding = frozenset(d.stamp_ns for d in read_decisions(log) if _commands(d))
+    return LoopRecord(
+        tick_ns=np.array(ticks, dtype=np.int64), exposures=tuple(exposures), commanding_ns=commanding
+    )  # fmt: skip
+
+
+def part(record: LoopRecord, from_ns: int, to_ns: int) -> LoopRecord:
+    """The ticks between two monotonic times."""
+    ticks = record.tick_ns
+    return LoopRecord(
+        tick_ns=ticks[(ticks >= from_ns) & (ticks < to_ns)],
+        exposures=tuple(e for e in record.exposures if from_ns <= e[1] < to_ns),
+        commanding_ns=record.commanding_ns,
+    )
+
+
+def periods(record: LoopRecord) -> NDArray[np.float64]:
+    """From tick to tick, s, (N - 1,)."""
+    return np.diff(record.tick_ns) * 1e-9
+
+
+def lateness(record: LoopRecord) -> NDArray[np.float64]:
+    """How long after its due instant each tick began, s, (N,).
+
+    The due instants lie on a grid of one period; its phase is that of the promptest tick, which is the start of the
+    cluster of remainders. A tick that is late by more than a period is due at the first instant it missed.
+    """
+    if len(record.tick_ns) == 0:
+        return np.zeros(0)
+    phase = _phase(record.tick_ns)
+    late, due = [], None
+    for tick in record.tick_ns.tolist():
+        on_grid = tick - (tick - phase) % TICK_NS
+        due = on_grid if due is None or due > tick else due
+        late.append((tick - due) * 1e-9)
+        due += TICK_NS * (1 + (tick - due) // TICK_NS)
+    return np.array(late)
+
+
+def _phase(ticks: NDArray[np.int64]) -> int:
+    """Where the widest gap between remainders ends."""
+    rest = np.unique(ticks % TICK_NS)
+    gaps = np.diff(np.append(rest, rest[0] + TICK_NS))
+    return int(rest[(int(np.argmax(gaps)) + 1) % len(rest)])
+
+
+def exposure_to_frame(record: LoopRecord, frames: Sequence[MotionFrame]) -> NDArray[np.float64]:
+    """From exposure to the first motion frame of the tick that consumed the picture, s, (M,).
+
+    The guard sends one frame for each command, so that of a tick is the first one after it; where none follows
+    within a period and a half, the command was refused, and the picture counts for none.
+    """
+    stamps = np.array([frame.stamp_ns for frame in frames], dtype=np.int64)
+    found = []
+    for exposure, tick in record.exposures:
+        at = int(np.searchsorted(stamps, tick))
+        if tick in record.commanding_ns and at < len(stamps) and stamps[at] - tick < 3 * TICK_NS // 2:
+            found.append((int(stamps[at]) - exposure) * 1e-9)
+    return np.array(found)
+
+
+def _exposures(inputs: NavInputs) -> list[tuple[int, int]]:
+    return [(row.stamp_ns, inputs.now_ns) for row in inputs.rows]
+
+
+def _commands(decision: Decision) -> bool:
+    return decision.command is not None
