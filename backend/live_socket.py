@@ -103,5 +103,5 @@ async def _watch(login: Login, logins: LoginBook) -> int | None:
 async def _close(websocket: WebSocket, code: int) -> None:
     try:
         await asyncio.wait_for(websocket.close(code), SLOWEST_SEND_S)
-    except (TimeoutError, RuntimeError, OSError):
+    except (TimeoutError, RuntimeError, OSError, WebSocketDisconnect):
         return

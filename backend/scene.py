@@ -1,4 +1,4 @@
-"""The 3D view, a process of its own: `python -m backend.scene --bus DIR --port PORT [--data DIR]`.
+"""The 3D view, a process of its own: `python -m backend.scene --bus DIR --port PORT --data DIR`.
 
 A subscriber of the bus like any other. viser listens on loopback and has no login: the station shows it under its own
 address, behind the station's login (`backend.scene_proxy`).
@@ -15,7 +15,9 @@ from typing import Any
 
 import viser
 
+from backend.scene_farm import FarmWatch
 from backend.scene_view import SceneView
+from backend.supervisor import SupervisorClient
 from navcore.errors import InputError
 from navcore.messages import CameraView, GnssFix, MissionPlan, NavStatus, RowObservation, SimTruth
 from navcore.topics import CAMERA_VIEW, GNSS_FIX, NAV_PLAN, NAV_STATUS, ROW_OBSERVATION, SIM_TRUTH
@@ -42,17 +44,26 @@ def main() -> None:
     parser = argparse.ArgumentParser(prog="scene", description="The 3D view of the station.")
     parser.add_argument("--bus", type=Path, required=True, help="directory of the station's sockets")
     parser.add_argument("--port", type=int, required=True, help="loopback port to listen on")
+    parser.add_argument("--data", type=Path, required=True, help="the station's data folder")
     parser.add_argument("--vehicle", default="paper_a", choices=sorted(PROFILES))
     arguments = parser.parse_args()
     ended: list[int] = []
     for number in (signal.SIGTERM, signal.SIGINT):
         signal.signal(number, lambda caught, _: ended.append(caught))
     os.nice(5)
+    endpoints = Endpoints(arguments.bus)
+    supervisor = SupervisorClient(endpoints, arguments.data / "robot")
+    farm = FarmWatch(supervisor, arguments.data / "robot")
     server = viser.ViserServer(host=LOOPBACK, port=arguments.port, label="Rowpilot", verbose=False)
-    view = SceneView(server.scene, PROFILES[arguments.vehicle])
-    with Subscriber(Endpoints(arguments.bus), SHOWN) as subscriber:
+    server.gui.configure_theme(show_logo=False, show_share_button=False)
+    server.gui.main_panel.minimize()
+    view = SceneView(server, PROFILES[arguments.vehicle])
+    with Subscriber(endpoints, SHOWN) as subscriber:
         while not ended:
             show_newest(subscriber, view)
+            if (site := farm.news()) is not None:
+                view.show_site(site)
+    supervisor.close()
     server.stop()
 
 

@@ -51,6 +51,7 @@ def command(settings: Settings) -> list[str]:
         "backend.scene",
         f"--bus={settings.bus_dir}",
         f"--port={settings.scene_port}",
+        f"--data={settings.data_dir}",
         f"--vehicle={settings.vehicle}",
     ]
 

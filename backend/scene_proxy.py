@@ -33,25 +33,30 @@ async def fetch(port: int | None, path: str, accept_encoding: str) -> StreamingR
     if port is None:
         raise NotFoundError(NO_SCENE)
     try:
-        answer = await run_in_threadpool(_ask, port, path, accept_encoding)
+        connection, answer = await run_in_threadpool(_ask, port, path, accept_encoding)
     except (OSError, HTTPException) as error:
         raise TransportError(NO_SCENE) from error
     headers = {name: value for name in PASSED_ON if (value := answer.headers.get(name))}
-    return StreamingResponse(_chunks(answer), answer.status, headers)
+    return StreamingResponse(_chunks(connection, answer), answer.status, headers)
 
 
-def _ask(port: int, path: str, accept_encoding: str) -> HTTPResponse:
+def _ask(port: int, path: str, accept_encoding: str) -> tuple[HTTPConnection, HTTPResponse]:
     connection = HTTPConnection(LOOPBACK, port, timeout=TIMEOUT_S)
-    connection.request("GET", f"/{path}", headers={"Accept-Encoding": accept_encoding})
-    return connection.getresponse()
+    try:
+        connection.request("GET", f"/{path}", headers={"Accept-Encoding": accept_encoding})
+        return connection, connection.getresponse()
+    except (OSError, HTTPException):
+        connection.close()
+        raise
 
 
-async def _chunks(answer: HTTPResponse) -> AsyncIterator[bytes]:
+async def _chunks(connection: HTTPConnection, answer: HTTPResponse) -> AsyncIterator[bytes]:
     try:
         while chunk := await run_in_threadpool(answer.read, CHUNK):
             yield chunk
     finally:
         answer.close()
+        connection.close()
 
 
 async def bridge(websocket: WebSocket, port: int | None, logins: LoginBook) -> None:
@@ -68,7 +73,7 @@ async def bridge(websocket: WebSocket, port: int | None, logins: LoginBook) -> N
     async with upstream:
         await websocket.accept(upstream.subprotocol)
         await first_of(_up(websocket, upstream), _down(upstream, websocket), _watch(login, logins))
-        with suppress(RuntimeError, OSError):
+        with suppress(RuntimeError, OSError, WebSocketDisconnect):
             await websocket.close(1000 if logins.alive(login) else LOGGED_OUT)
 
 

@@ -8,10 +8,12 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from viser import SceneApi
+from viser import ViserServer
 
+from backend.scene_site import show_site
 from navcore.geometry.geodesy import EnuFrame
 from navcore.geometry.se2 import SE2
+from navcore.maps.site_map import SiteMap
 from navcore.messages import CameraName, GnssFix, MissionPlan, NavStatus, PoseEstimate, RowObservation, SimTruth
 from navcore.vehicle import VehicleParams
 
@@ -23,15 +25,19 @@ DRIVEN_STEP = 0.2  # m between two points of the driven line
 MOST_DRIVEN = 5000
 ROW_AHEAD = 6.0  # m that a seen row is drawn ahead when its end is not in sight
 ELLIPSE_SIGMAS = 2.45  # 95 % of a normal distribution in the plane
+BEHIND, UP, AHEAD = 7.0, 4.5, 4.0  # m, the first camera behind the robot, and the point that it looks at
+NEW_VIEW_STEP = 1.0  # m
 ABOVE = 0.05  # m, so that lines do not flicker in the ground
 
 
 class SceneView:
     """Takes the bus' messages and keeps the scene as they say."""
 
-    def __init__(self, scene: SceneApi, vehicle: VehicleParams) -> None:
+    def __init__(self, server: ViserServer, vehicle: VehicleParams) -> None:
         """`vehicle` gives the body's size."""
-        self._scene = scene
+        self._scene = scene = server.scene
+        self._camera = server.initial_camera
+        self._seen_from: tuple[float, float] | None = None
         self._vehicle = vehicle
         self._frame: EnuFrame | None = None
         self._driven: list[tuple[float, float]] = []
@@ -53,6 +59,11 @@ class SceneView:
         if show is not None:
             show(message)
 
+    def show_site(self, site: SiteMap) -> None:
+        """Draw the farm."""
+        self._frame = EnuFrame(site.datum)
+        show_site(self._scene, site)
+
     def _show_status(self, status: NavStatus) -> None:
         if status.run_id != self._run_id:
             self._run_id, self._driven = status.run_id, []
@@ -62,6 +73,16 @@ class SceneView:
         self._body("/robot", status.pose, GREEN, opacity=1.0)
         self._ellipse("/robot_covariance", status.pose.x, status.pose.y, plane_covariance(status.pose), GREEN)
         self._add_driven(status.pose.x, status.pose.y)
+        self._stand_behind(status.pose)
+
+    def _stand_behind(self, pose: PoseEstimate) -> None:
+        """Where a view that is opened from now on begins; views that are open keep the operator's own choice."""
+        if self._seen_from is not None and math.dist(self._seen_from, (pose.x, pose.y)) < NEW_VIEW_STEP:
+            return
+        self._seen_from = (pose.x, pose.y)
+        place = SE2(pose.x, pose.y, pose.yaw).apply(np.array([[-BEHIND, 0.0], [AHEAD, 0.0]]))
+        self._camera.position = (*place[0], UP)
+        self._camera.look_at = (*place[1], 0.0)
 
     def _add_driven(self, x: float, y: float) -> None:
         if self._driven and math.dist(self._driven[-1], (x, y)) < DRIVEN_STEP:
@@ -74,12 +95,6 @@ class SceneView:
         self._scene.remove_by_name("/plan")
         for i, segment in enumerate(plan.segments):
             self._line(f"/plan/{i}", np.array(segment.points), BLUE, ABOVE)
-            if segment.row_id and segment.row_start and segment.row_end and segment.corridor_width:
-                self._plant_lines(f"/plan/row_{i}", segment.row_start, segment.row_end, segment.corridor_width)
-
-    def _plant_lines(self, name: str, start: tuple[float, float], end: tuple[float, float], width: float) -> None:
-        for side, line in enumerate(beside(np.array([start, end]), width / 2.0)):
-            self._line(f"{name}/{side}", line, GREY, 0.5)
 
     def _show_fix(self, fix: GnssFix) -> None:
         """Ghost of GNSS alone: the antenna's place and its own 95 % ellipse."""

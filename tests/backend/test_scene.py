@@ -1,0 +1,108 @@
+"""The 3D view behind the station's login: viser itself, on loopback."""
+
+from __future__ import annotations
+
+import socket
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+import viser
+from fastapi.testclient import TestClient
+from starlette.websockets import WebSocketDisconnect
+
+from backend.scene_site import posts, show_site, trunks
+from backend.scene_view import SceneView
+from backend.settings import Settings
+from navcore.maps.site_map import Row, SiteMap
+from navcore.vehicle import PROFILES
+from tests.backend.conftest import ORIGIN
+
+PROTOCOL = f"viser-v{viser.__version__}"
+SOCKET = f"{ORIGIN.replace('http', 'ws')}/scene"
+
+
+@pytest.fixture
+def viewer() -> Iterator[viser.ViserServer]:
+    """A 3D view on a free port."""
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        port = probe.getsockname()[1]
+    server = viser.ViserServer(host="127.0.0.1", port=port, verbose=False)
+    yield server
+    server.stop()
+
+
+@pytest.fixture
+def settings(settings: Settings, viewer: viser.ViserServer) -> Settings:
+    """Of a station that shows that view; it must not start one of its own."""
+    return settings.model_copy(update={"scene_port": viewer.get_port()})
+
+
+@pytest.fixture(autouse=True)
+def no_second_viewer(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("backend.scene_process.SceneProcess.start", lambda _: None)
+
+
+def test_the_viewer_s_page_comes_through_with_its_own_policy(client: TestClient) -> None:
+    answer = client.get("/scene/")
+    assert answer.status_code == 200, answer.text[:300]
+    assert answer.headers["content-type"].startswith("text/html")
+    assert "<title>Viser</title>" in answer.text
+    assert "'wasm-unsafe-eval'" in answer.headers["content-security-policy"]
+    assert "frame-ancestors 'self'" in answer.headers["content-security-policy"]
+    assert "wasm-unsafe-eval" not in client.get("/drive").headers["content-security-policy"]
+    assert client.get("/scene/no-such-file.js").status_code == 404
+
+
+def test_the_viewer_s_socket_speaks_its_own_protocol_both_ways(client: TestClient, viewer: viser.ViserServer) -> None:
+    with client.websocket_connect(SOCKET, subprotocols=[PROTOCOL], headers={"Origin": ORIGIN}) as browser:
+        assert browser.accepted_subprotocol == PROTOCOL
+        assert len(browser.receive_bytes()) > 0
+        browser.send_bytes(b"no message of viser")  # reaches it, so it ends the connection
+        with pytest.raises(WebSocketDisconnect):
+            for _ in range(10_000):
+                browser.receive_bytes()
+
+
+def test_nobody_sees_the_view_without_a_login(visitor: TestClient) -> None:
+    assert visitor.get("/scene/").status_code == 401
+    with (
+        pytest.raises(WebSocketDisconnect),
+        visitor.websocket_connect(SOCKET, subprotocols=[PROTOCOL], headers={"Origin": ORIGIN}),
+    ):
+        pass
+
+
+def test_the_view_ends_with_the_login(client: TestClient) -> None:
+    with client.websocket_connect(SOCKET, subprotocols=[PROTOCOL], headers={"Origin": ORIGIN}) as browser:
+        client.post("/api/session/logout")
+        with pytest.raises(WebSocketDisconnect) as ended:
+            for _ in range(10_000):
+                browser.receive_bytes()
+    assert ended.value.code == 4401
+
+
+def test_without_a_viewer_the_page_says_so(client: TestClient, viewer: viser.ViserServer) -> None:
+    viewer.stop()
+    answer = client.get("/scene/")
+    assert answer.status_code == 503
+    assert "3D view is not running" in answer.json()["message"]
+
+
+def test_every_row_of_the_farm_stands_in_the_view(site: SiteMap, viewer: viser.ViserServer) -> None:
+    view = SceneView(viewer, PROFILES["paper_a"])
+    view.show_site(site)
+    row = site.rows[0]
+    along = np.arange(0.0, 60.0 + 1e-6, row.post_spacing)
+    found = posts((row,))
+    assert found.shape == (2 * len(along), 2, 3)
+    assert sorted(set(found[:, 0, 0].tolist())) == [row.start[0] - row.width / 2, row.start[0] + row.width / 2]  # m
+    assert np.allclose(np.unique(found[:, 0, 1]), row.start[1] + along, atol=1e-3)  # m
+    show_site(viewer.scene, SiteMap(name="Empty", datum=site.datum))
+
+
+def test_a_row_without_length_and_a_huge_farm_are_shown_too() -> None:
+    assert np.isfinite(posts((Row(id="dot", start=(1.0, 1.0), end=(1.0, 1.0)),))).all()
+    many = tuple(Row(id=f"r{i}", start=(3.0 * i, 0.0), end=(3.0 * i, 500.0)) for i in range(200))
+    assert len(trunks(many)) <= 20_000
