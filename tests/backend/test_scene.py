@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import socket
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 import pytest
@@ -44,6 +45,12 @@ def no_second_viewer(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("backend.scene_process.SceneProcess.start", lambda _: None)
 
 
+def read_on(browser: Any) -> None:
+    """Until the socket ends."""
+    for _ in range(10_000):
+        browser.receive_bytes()
+
+
 def test_the_viewer_s_page_comes_through_with_its_own_policy(client: TestClient) -> None:
     answer = client.get("/scene/")
     assert answer.status_code == 200, answer.text[:300]
@@ -61,8 +68,7 @@ def test_the_viewer_s_socket_speaks_its_own_protocol_both_ways(client: TestClien
         assert len(browser.receive_bytes()) > 0
         browser.send_bytes(b"no message of viser")  # reaches it, so it ends the connection
         with pytest.raises(WebSocketDisconnect):
-            for _ in range(10_000):
-                browser.receive_bytes()
+            read_on(browser)
 
 
 def test_nobody_sees_the_view_without_a_login(visitor: TestClient) -> None:
@@ -78,8 +84,7 @@ def test_the_view_ends_with_the_login(client: TestClient) -> None:
     with client.websocket_connect(SOCKET, subprotocols=[PROTOCOL], headers={"Origin": ORIGIN}) as browser:
         client.post("/api/session/logout")
         with pytest.raises(WebSocketDisconnect) as ended:
-            for _ in range(10_000):
-                browser.receive_bytes()
+            read_on(browser)
     assert ended.value.code == 4401
 
 

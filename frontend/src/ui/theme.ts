@@ -10,7 +10,7 @@ export const theme = createTheme({
     TextInput: TextInput.extend({ defaultProps: { size: "md" } }),
     NumberInput: NumberInput.extend({ defaultProps: { size: "md" } }),
     Select: Select.extend({ defaultProps: { size: "md", allowDeselect: false } }),
-    SegmentedControl: SegmentedControl.extend({ defaultProps: { size: "md" } }),
+    SegmentedControl: SegmentedControl.extend({ defaultProps: { size: "md" }, styles: { label: { minHeight: 44, alignContent: "center" } } }),
     // Locking the page's scroll would inject a style element, which the CSP forbids.
     Modal: Modal.extend({ defaultProps: { centered: true, lockScroll: false, size: "lg" } }),
   },
