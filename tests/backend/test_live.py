@@ -13,6 +13,8 @@ import sys
 import urllib.error
 import urllib.request
 from collections.abc import Iterator
+from concurrent.futures import CancelledError
+from contextlib import contextmanager, suppress
 from typing import Any
 
 import pytest
@@ -93,6 +95,16 @@ def live(robot: PlayedRobot, client: TestClient) -> TestClient:
     return client
 
 
+@contextmanager
+def feed(client: TestClient) -> Iterator[Any]:
+    """The live feed of a page. On leaving, the test client cancels a handler that has not ended yet."""
+    with (
+        suppress(CancelledError),
+        client.websocket_connect(f"{SOCKET}/api/live", headers={"Origin": ORIGIN}) as socket,
+    ):
+        yield socket
+
+
 def read_topics(socket: Any, count: int) -> dict[str, Any]:
     topics: dict[str, Any] = {}
     for _ in range(count):
@@ -111,7 +123,7 @@ def read_topics(socket: Any, count: int) -> dict[str, Any]:
 
 
 def test_a_browser_gets_status_and_pictures_as_the_bus_carries_them(live: TestClient) -> None:
-    with live.websocket_connect(f"{SOCKET}/api/live", headers={"Origin": ORIGIN}) as socket:
+    with feed(live) as socket:
         topics = read_topics(socket, 40)
     assert topics["nav/status"]["state"] == "idle"
     view, jpeg = topics["camera/view"]
@@ -128,7 +140,7 @@ def test_the_documented_topics_are_those_that_are_shown() -> None:
 
 def test_a_heartbeat_reaches_the_navigator_while_a_page_lives(live: TestClient, robot: PlayedRobot) -> None:
     assert RequestKind.HEARTBEAT not in robot.kinds()
-    with live.websocket_connect(f"{SOCKET}/api/live", headers={"Origin": ORIGIN}) as socket:
+    with feed(live) as socket:
 
         def heard() -> bool:
             socket.send_text('{"heartbeat": 1}')
@@ -157,14 +169,14 @@ def test_nobody_gets_a_feed_without_a_login(live: TestClient) -> None:
 
 @pytest.mark.parametrize("words", ['{"heartbeat": -1}', "[]", "x" * 5000, '{"heartbeat": 1, "drive": true}'])
 def test_a_browser_may_only_say_that_it_lives(live: TestClient, words: str) -> None:
-    with live.websocket_connect(f"{SOCKET}/api/live", headers={"Origin": ORIGIN}) as socket:
+    with feed(live) as socket:
         socket.send_text(words)
         with pytest.raises(WebSocketDisconnect):
             read_topics(socket, 100_000)
 
 
 def test_the_feed_ends_with_the_login(live: TestClient) -> None:
-    with live.websocket_connect(f"{SOCKET}/api/live", headers={"Origin": ORIGIN}) as socket:
+    with feed(live) as socket:
         read_topics(socket, 3)
         live.post("/api/session/logout")
         with pytest.raises(WebSocketDisconnect) as ended:

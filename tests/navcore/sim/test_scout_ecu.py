@@ -23,13 +23,14 @@ def wheels(v: float = 0.0, left_m: float = 0.0, right_m: float = 0.0) -> WheelSt
     return WheelState(stamp_ns=0, left=v, right=v, left_m=left_m, right_m=right_m, v=v, omega=0.0)
 
 
-def frames_of(ecu: ScoutEcu, duration_ms: int, step_ms: int = 5) -> list[Frame]:
-    times = range(START_NS, START_NS + duration_ms * MS, step_ms * MS)
+def frames_of(ecu: ScoutEcu, duration_ms: int, step_ms: int = 5, after_ms: int = 0) -> list[Frame]:
+    start_ns = START_NS + after_ms * MS
+    times = range(start_ns, start_ns + duration_ms * MS, step_ms * MS)
     return [frame for now_ns in times for frame in ecu.feedback(now_ns, wheels())]
 
 
-def system_of(ecu: ScoutEcu) -> scout_can.SystemState:
-    states = [scout_can.decode_system_state(frame) for frame in frames_of(ecu, 200)]
+def system_of(ecu: ScoutEcu, after_ms: int = 0) -> scout_can.SystemState:
+    states = [scout_can.decode_system_state(frame) for frame in frames_of(ecu, 200, after_ms=after_ms)]
     return next(state for state in reversed(states) if state is not None)
 
 
@@ -101,9 +102,9 @@ def test_a_broken_motor_driver_stops_it_until_its_fault_is_cleared(driving: Scou
     slow = [scout_can.decode_motor_slow(frame) for frame in frames_of(driving, 100)]
     assert [motor.state for motor in slow if motor is not None] == [0b100, 0, 0b10, 0]
     driving.receive(scout_can.encode_clear_errors(2), START_NS)
-    assert system_of(driving).state is VehicleState.EXCEPTION
+    assert system_of(driving, after_ms=200).state is VehicleState.EXCEPTION
     driving.receive(scout_can.encode_clear_errors(), START_NS)
-    assert system_of(driving).state is VehicleState.NORMAL
+    assert system_of(driving, after_ms=500).state is VehicleState.NORMAL
 
 
 def test_after_a_reboot_it_waits_in_standby(driving: ScoutEcu) -> None:
