@@ -22,6 +22,7 @@ class EventParams:
         tick_slow_s, tick_stop_s: time between two ticks (hazard 7).
         gnss_slow_s, gnss_stop_s: age of the position while it is driven on (hazard 27).
         pose_std: dead-reckoned 1-sigma while GNSS is driven on. carried: metres driven on odometry alone.
+        entrance: a row that is not seen is not entered: the robot waits so far before its entrance.
         row_hold_s: age of the row line while it is driven on (hazard 37). hold_stop_s: longest hold.
         gnss_hold_s: longest wait for GNSS at the end of a row.
         off_path_slow, off_path_stop: distance from the path (hazard 50).
@@ -39,6 +40,7 @@ class EventParams:
     gnss_stop_s: float = 2.8
     pose_std: float = 0.6
     carried: float = 30.0
+    entrance: float = 1.0
     row_hold_s: float = 0.42
     hold_stop_s: float = 20.0
     gnss_hold_s: float = 90.0
@@ -55,7 +57,8 @@ class EventParams:
 class EventFacts:
     """What the table looks at in one tick, `pose_cap` in m/s being what the second opinion on the pose allows.
 
-    Ages are None where nothing came; `captured`: the path was reached.
+    Ages are None where nothing came; `captured`: the path was reached;
+    `entrance`: metres to that of a row which is driven at without being seen.
     """
 
     state: RunState
@@ -71,6 +74,7 @@ class EventFacts:
     pose_cap_reason: str
     row_age_s: float | None
     row_reason: str
+    entrance: float | None
     lateral_error: float | None
     captured: bool
     stuck: bool
@@ -212,6 +216,12 @@ EVENTS: tuple[Event, ...] = (
         "waiting_for_gnss", "HOLD",
         lambda f, _: f.waiting_for_gnss,
         "The row is left and GNSS has no fix yet. The robot waits and goes on by itself.",
+    ),
+    _event(
+        "entrance_unseen", "HOLD",
+        lambda f, p: _moving(f) and f.entrance is not None and not f.entrance > p.entrance,
+        lambda f: f"The row's entrance is near and the camera does not see the row: {f.row_reason or 'no picture'}. "
+        "The robot waits and goes on by itself.",
     ),
     _event(
         "row_unseen", "HOLD",

@@ -227,6 +227,11 @@ class Pilot:
         (x0, y0), (x1, y1) = segment.row_start, segment.row_end
         return RowLine(x0, y0, math.atan2(y1 - y0, x1 - x0))
 
+    def to_start(self) -> float | None:
+        """Metres ahead at which the row that matters here begins, negative inside; None where none matters."""
+        row = self.row_line()
+        return -row.coordinates(self.pose).x if row else None
+
     @staticmethod
     def _row_length(segment: PathSegment) -> float:
         return math.dist(segment.row_start or (0.0, 0.0), segment.row_end or (0.0, 0.0))

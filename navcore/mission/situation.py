@@ -61,6 +61,7 @@ def event_facts(
         pose_cap_reason=cap.reason,
         row_age_s=pilot.row.age_s(now_ns) if pilot else None,
         row_reason=pilot.row.reason if pilot else "",
+        entrance=_unseen_entrance(now),
         lateral_error=pilot.projection.lateral if pilot else None,
         captured=pilot.captured if pilot else True,
         stuck=stuck,
@@ -72,6 +73,13 @@ def event_facts(
         start_distance=start_distance,
         waiting_for_gnss=_waits_for_gnss(now),
     )
+
+
+def _unseen_entrance(now: Situation) -> float | None:
+    """Metres to the entrance of a row that the robot drives at without seeing it."""
+    pilot = now.pilot
+    unseen = pilot is not None and pilot.mode in (NavMode.GNSS_PATH, NavMode.HEADLAND)
+    return pilot.to_start() if pilot is not None and unseen and pilot.segment.kind is SegmentKind.ENTRY else None
 
 
 def _waits_for_gnss(now: Situation) -> bool:

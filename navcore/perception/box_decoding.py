@@ -83,7 +83,7 @@ def detected_objects(
     edges = np.array((width_px, height_px, width_px, height_px), dtype=np.float64)
     cut = np.clip(boxes * scale, 0.0, edges).tolist()
     return tuple(
-        DetectedObject(kind=KINDS[k], confidence=float(c), x1=x1, y1=y1, x2=x2, y2=y2)
+        DetectedObject(kind=KINDS[k], confidence=float(c), x1=float(x1), y1=float(y1), x2=float(x2), y2=float(y2))
         for (x1, y1, x2, y2), c, k in zip(cut, confidence, kinds, strict=True)
         if x2 > x1 and y2 > y1
     )

@@ -60,4 +60,4 @@ def _segment(line: Line2 | None, camera: PinholeCamera, pitch: float) -> ImageLi
     ends = (line.x_at(float(camera.height_px)), line.x_at(far)) if line else (None, None)
     if ends[0] is None or ends[1] is None:
         return None
-    return ImageLine(u0=ends[0], v0=float(camera.height_px), u1=ends[1], v1=far)
+    return ImageLine(u0=float(ends[0]), v0=float(camera.height_px), u1=float(ends[1]), v1=float(far))

@@ -9,10 +9,11 @@ import pytest
 
 from navcore.maps.mission import RowExit
 from navcore.maps.site_map import SiteMap
-from navcore.messages import NavMode, RunState
+from navcore.messages import CameraView, NavMode, RunState
 from navcore.planning.mission_planner import mission_for_row
 from navcore.sim.demo_farm import demo_farm
 from navcore.sim.world import WorldParams
+from navcore.transport.codec import decode, encode
 from tests.missions.conftest import Drive, new_drive
 
 
@@ -38,3 +39,5 @@ def test_the_row_that_is_meant_is_entered_although_a_first_look_fits_between_two
     drive.until_mode(NavMode.ROW)
     drive.until(lambda _: False, seconds=3)
     assert max(abs(e) for e in drive.lateral_in_rows()) < 0.30  # m
+    views = [view for tick in drive.ticks for view in tick.views]
+    assert all(decode(CameraView, encode(view)) == view for view in views)

@@ -129,3 +129,13 @@ def test_start_is_refused_with_every_reason_at_once(park: Park, farm: SiteMap) -
     (reply,) = tick.decision.replies
     assert not reply.accepted
     assert len(reply.reasons) >= 2
+
+
+def test_a_row_that_is_not_seen_is_not_entered(park: Park, farm: SiteMap) -> None:
+    drive = on_the_road(park, farm)
+    drive.lockstep.eye = None
+    seconds_until(drive, lambda t: "entrance_unseen" in events(t), limit=80.0)
+    tick = drive.until(stands, seconds=3)
+    assert tick.decision.status.state is RunState.HOLDING
+    row = drive.lockstep.world.site.row("r1")
+    assert tick.truth.y < row.start[1]  # m: still before the entrance
