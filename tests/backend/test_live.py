@@ -169,10 +169,10 @@ def test_nobody_gets_a_feed_without_a_login(live: TestClient) -> None:
 
 @pytest.mark.parametrize("words", ['{"heartbeat": -1}', "[]", "x" * 5000, '{"heartbeat": 1, "drive": true}'])
 def test_a_browser_may_only_say_that_it_lives(live: TestClient, words: str) -> None:
-    with feed(live) as socket:
-        socket.send_text(words)
-        with pytest.raises(WebSocketDisconnect):
-            read_topics(socket, 100_000)
+    with feed(live) as socket, pytest.raises(WebSocketDisconnect):
+        for _ in range(1000):
+            socket.send_text(words)
+            read_topics(socket, 20)
 
 
 def test_the_feed_ends_with_the_login(live: TestClient) -> None:
