@@ -1,0 +1,60 @@
+"""The vocabulary: frozen data for all that crosses a thread, a process, a log or the browser.
+
+Every `stamp_ns` is the monotonic time of *capture*. SI units are silent, anything else carries a suffix. Frames
+follow REP 103/105: `map` is ENU in metres from the site's datum, `base_link` is x forward, y left, z up; pixels are
+u right, v down. Angles are radians in (-pi, pi], counter-clockwise from east.
+"""
+
+from navcore.messages.camera import (
+    CameraName,
+    CameraRequest,
+    CameraView,
+    DetectedObject,
+    ImageLine,
+    ImagePoint,
+    ObjectKind,
+    RowObservation,
+)
+from navcore.messages.mission_plan import MissionPlan, PathSegment, Point, SegmentKind
+from navcore.messages.recorder import RecorderStatus
+from navcore.messages.request import LinkLossPolicy, Reply, Request, RequestKind
+from navcore.messages.sensing import FixQuality, GnssFix, ImuSample
+from navcore.messages.simulation import SimContact, SimFarm, SimTruth, TrueRow
+from navcore.messages.status import ActiveEvent, ModeSwitch, NavMode, NavStatus, PoseEstimate, RunState
+from navcore.messages.tick import Decision, NavInputs, NavPrelude
+
+__all__ = [
+    "ActiveEvent",
+    "CameraName",
+    "CameraRequest",
+    "CameraView",
+    "Decision",
+    "DetectedObject",
+    "FixQuality",
+    "GnssFix",
+    "ImageLine",
+    "ImagePoint",
+    "ImuSample",
+    "LinkLossPolicy",
+    "MissionPlan",
+    "ModeSwitch",
+    "NavInputs",
+    "NavMode",
+    "NavPrelude",
+    "NavStatus",
+    "ObjectKind",
+    "PathSegment",
+    "Point",
+    "PoseEstimate",
+    "RecorderStatus",
+    "Reply",
+    "Request",
+    "RequestKind",
+    "RowObservation",
+    "RunState",
+    "SegmentKind",
+    "SimContact",
+    "SimFarm",
+    "SimTruth",
+    "TrueRow",
+]

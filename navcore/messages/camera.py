@@ -1,0 +1,143 @@
+"""What a camera saw, what it makes of the row, and what it is asked to look at."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+
+class CameraName(StrEnum):
+    """The two cameras of paper A's robot."""
+
+    FRONT = "front"
+    REAR = "rear"
+
+
+class ObjectKind(StrEnum):
+    """What the detector knows."""
+
+    TRUNK = "trunk"
+    POST = "post"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DetectedObject:
+    """A box in the image, pixels, origin top left, (x1, y1) top left and (x2, y2) bottom right."""
+
+    kind: ObjectKind
+    confidence: float
+    x1: float
+    y1: float
+    x2: float
+    y2: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ImagePoint:
+    """A corner point: where an object meets the ground, and whether the row fit kept it."""
+
+    u: float
+    v: float
+    side: str
+    kept: bool
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ImageLine:
+    """A line segment in the image, pixels, near end first."""
+
+    u0: float
+    v0: float
+    u1: float
+    v1: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RowObservation:
+    """The row ahead as one sensor saw it at `stamp_ns`, in the camera's driving frame.
+
+    The driving frame is `base_link` for the front camera and `base_link` turned by pi for the rear camera, so
+    that x always points the way the camera looks.
+
+    Attributes:
+        valid: True if there is a line; then all of the line's fields are numbers.
+        reason: why there is none, a short sentence; empty when valid.
+        offset: signed distance from the driving frame's origin to the centre line, m, positive if the line is left.
+        heading: direction of the centre line in the driving frame, rad.
+        offset_std, heading_std: 1-sigma.
+        quality: 0 to 1.
+        width: corridor width, m, None if not known.
+        end_distance: distance ahead at which the row ends, m, None if no end is in sight.
+        objects: number of trunks and posts that carried the fit.
+        left_seen, right_seen: this frame's own evidence for each side (False: carried over from earlier frames).
+        image_offset, image_heading: paper A's reading of the image's bisector: lateral deviation of the centre line
+            at the look-ahead depth, m, and its angle to the image's vertical, rad; both positive to the left.
+    """
+
+    stamp_ns: int
+    camera: CameraName
+    valid: bool
+    reason: str
+    offset: float | None = None
+    heading: float | None = None
+    offset_std: float | None = None
+    heading_std: float | None = None
+    quality: float = 0.0
+    width: float | None = None
+    end_distance: float | None = None
+    objects: int = 0
+    left_seen: bool = False
+    right_seen: bool = False
+    image_offset: float | None = None
+    image_heading: float | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CameraView:
+    """A picture's description for the browser; the camera's own JPEG travels beside it in the same message.
+
+    `centre` is the corridor's centre line on the ground, `bisector` the published one in the image.
+    """
+
+    stamp_ns: int
+    camera: CameraName
+    width_px: int
+    height_px: int
+    objects: tuple[DetectedObject, ...]
+    points: tuple[ImagePoint, ...]
+    left: ImageLine | None
+    right: ImageLine | None
+    centre: ImageLine | None
+    row: RowObservation
+    latency_ms: float
+    bisector: ImageLine | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CameraRequest:
+    """What the row worker should look at, and what it may expect to see.
+
+    Attributes:
+        odom_x, odom_y, odom_yaw: smooth dead-reckoned pose of `base_link` at `stamp_ns`, for motion between frames.
+        offset, heading: of the wanted row's centre line in the driving frame at `stamp_ns`, as in `RowObservation`;
+            None where no row is expected.
+        offset_std: 1-sigma of `offset`, m.
+        width: corridor width, m.
+        to_start: metres ahead at which the wanted row begins (negative inside), by map and odometry.
+        to_end: metres ahead at which it ends.
+        roll, pitch: how the driving frame leans against the ground, rad (left side up, nose down).
+    """
+
+    stamp_ns: int
+    camera: CameraName
+    odom_x: float
+    odom_y: float
+    odom_yaw: float
+    offset: float | None = None
+    heading: float | None = None
+    offset_std: float | None = None
+    width: float | None = None
+    to_start: float | None = None
+    to_end: float | None = None
+    roll: float = 0.0
+    pitch: float = 0.0
