@@ -88,7 +88,7 @@ def evaluate(record: RunRecord) -> Evaluation:
         row_heading_deg=_deviation(np.degrees(where.heading_off[where.in_row])),
         image_heading_deg=_deviation(np.degrees(where.image_angles())),
         entry_errors=where.entry_errors(),
-        switches=score_switches(record, where.driven, where.from_wanted_line()),
+        switches=score_switches(record, truth[:, 0], where.driven, where.from_wanted_line()),
         wrong_rows=wrong,
         contacts=tuple(str(c.kind) for c in record.contacts),
     )

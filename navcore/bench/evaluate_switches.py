@@ -36,13 +36,17 @@ class SwitchScore:
     seconds: float | None
 
 
-def score_switches(record: RunRecord, driven: Floats, deviation: Floats) -> tuple[SwitchScore, ...]:
-    """All switches, given metres driven (N,) and deviation (N,) at each sample of the truth."""
-    return tuple(_score(record, switch, driven, deviation) for switch in record.switches)
+def score_switches(
+    record: RunRecord, stamps_s: Floats, driven: Floats, deviation: Floats
+) -> tuple[SwitchScore, ...]:  # fmt: skip
+    """All switches, given stamps (N,), metres driven (N,) and deviation (N,) of the true poses under way."""
+    return tuple(_score(record, switch, stamps_s, driven, deviation) for switch in record.switches)
 
 
-def _score(record: RunRecord, switch: ModeSwitch, driven: Floats, deviation: Floats) -> SwitchScore:
-    at = np.interp(switch.stamp_ns * 1e-9, record.truth[:, 0], driven)
+def _score(
+    record: RunRecord, switch: ModeSwitch, stamps_s: Floats, driven: Floats, deviation: Floats
+) -> SwitchScore:  # fmt: skip
+    at = np.interp(switch.stamp_ns * 1e-9, stamps_s, driven)
     near = np.abs(driven - at) <= NEAR_M
     return SwitchScore(
         stamp_s=switch.stamp_ns * 1e-9, before=str(switch.before), after=str(switch.after), reason=switch.reason,

@@ -17,7 +17,7 @@ def train(
     data: Annotated[Path, typer.Argument(help="Folder of training pictures with annotations.json (COCO).")],
     validation: Annotated[Path, typer.Argument(help="Folder of pictures that are not trained on.")],
     out: Annotated[Path, typer.Option(help="Folder for last.pt, best.pt and feet.onnx.")] = Path("training"),
-    epochs: Annotated[int, typer.Option(min=1, help="Passes over the training pictures.")] = 15,
+    epochs: Annotated[int, typer.Option(min=1, help="Passes over the training pictures.")] = 24,
     seed: Annotated[int, typer.Option(help="Of weights, order and augmentation.")] = 1,
     threads: Annotated[int, typer.Option(min=1, help="CPU threads.")] = 1,
     resume: Annotated[bool, typer.Option(help="Go on from OUT/last.pt.")] = False,

@@ -17,9 +17,10 @@ CLASSES = 2
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FootNetParams:
-    """Channels at strides 2, 4, 8, 16 and 32. Small, because the robot has one core for it."""
+    """Channels at strides 2, 4, 8, 16 and 32, and of the head. Small, because the robot has one core for it."""
 
     channels: tuple[int, int, int, int, int] = (16, 16, 48, 64, 96)
+    head: int = 32
 
 
 class ConvUnit(nn.Sequential):
@@ -60,8 +61,9 @@ class FootNet(nn.Module):
         self.stride_16 = nn.Sequential(ConvUnit(c, d, 2), ConvUnit(d, d))
         self.stride_32 = nn.Sequential(ConvUnit(d, e, 2), ConvUnit(e, e))
         self.merge_16, self.merge_8, self.merge_4 = Merge(e, d), Merge(d, c), Merge(c, b)
-        self.logits = nn.Conv2d(b, CLASSES, 1)
-        self.boxes = nn.Conv2d(b, 4, 1)
+        self.head = ConvUnit(b, params.head)
+        self.logits = nn.Conv2d(params.head, CLASSES, 1)
+        self.boxes = nn.Conv2d(params.head, 4, 1)
         nn.init.constant_(self.logits.bias, -4.6)  # type: ignore[arg-type]
 
     def forward(self, image: Tensor) -> tuple[Tensor, Tensor]:
@@ -69,8 +71,8 @@ class FootNet(nn.Module):
         x8 = self.stride_8(x4)
         x16 = self.stride_16(x8)
         x16 = self.merge_16(self.stride_32(x16), x16)
-        x4 = self.merge_4(self.merge_8(x16, x8), x4)
-        return self.logits(x4), self.boxes(x4)
+        head = self.head(self.merge_4(self.merge_8(x16, x8), x4))
+        return self.logits(head), self.boxes(head)
 
 
 def peaks(logits: Tensor) -> Tensor:

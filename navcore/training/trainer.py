@@ -39,7 +39,7 @@ class TrainerParams:
         validation_pictures: every epoch is validated on so many, evenly drawn.
     """
 
-    epochs: int = 15
+    epochs: int = 24
     batch: int = 12
     learning_rate: float = 4e-3
     weight_decay: float = 1e-3
@@ -129,8 +129,9 @@ class Trainer:
     def _keep(self, map50: float) -> None:
         if map50 > self._best:
             self._best = map50
-            weights = {"net": self._mean.module.state_dict(), "channels": self._params.net.channels}
-            torch.save({**weights, "map50": map50, "epoch": self._epoch}, self._folder / "best.pt")
+            net = self._params.net
+            shape = {"channels": net.channels, "head": net.head, "map50": map50, "epoch": self._epoch}
+            torch.save({"net": self._mean.module.state_dict(), **shape}, self._folder / "best.pt")
         torch.save(self._state(), self._folder / "last.pt")
 
     def _state(self) -> dict[str, Any]:
@@ -170,7 +171,7 @@ def load_net(path: Path) -> FootNet:
     """The network of a `best.pt`, ready to detect. Raises ModelError for anything else."""
     try:
         state = torch.load(path, weights_only=True)
-        net = FootNet(FootNetParams(channels=tuple(state["channels"])))
+        net = FootNet(FootNetParams(channels=tuple(state["channels"]), head=int(state["head"])))
         net.load_state_dict(state["net"])
     except Exception as error:  # torch raises pickle, zip and runtime errors of all kinds for a broken file
         raise ModelError(f"{path} holds no weights of this detector.") from error

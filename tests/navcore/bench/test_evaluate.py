@@ -165,6 +165,14 @@ def test_a_switch_is_scored_by_the_largest_error_within_two_metres(plan: Mission
     assert 0.05 < (result.switches[0].lateral_m or 0.0) <= 0.21
 
 
+def test_time_spent_standing_before_the_start_moves_no_switch(plan: MissionPlan) -> None:
+    at = switch(28.0, NavMode.GNSS_PATH, NavMode.ROW)
+    record = replace(drive(plan, lambda x: ideal(x) + 0.12 * (27.0 < x < 29.0)), switches=(at,))
+    standing = np.array([(9.0 + 0.1 * i, 0.0, 5.0, 0.0, 0.0) for i in range(9)])
+    waited = replace(record, truth=np.vstack((standing, record.truth)))
+    assert evaluate(waited).switches == evaluate(record).switches
+
+
 def test_a_switch_takes_from_its_newest_evidence_to_the_first_command(plan: MissionPlan) -> None:
     at = switch(28.0, NavMode.GNSS_PATH, NavMode.ROW)
     record = replace(drive(plan, ideal), switches=(at,), evidence_ns=(at.stamp_ns - 150_000_000,))
