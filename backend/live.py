@@ -105,6 +105,11 @@ class Hub:
         with self._lock:
             return {name: r for name, r in self._newest.items() if self._fresh(name, now_s)}
 
+    def forget(self) -> None:
+        """The robot was set up anew: what it said before holds no longer."""
+        with self._lock:
+            self._newest.clear()
+
     def _fresh(self, name: str, now_s: float) -> bool:
         max_age_s = TOPICS[name].max_age_s
         return max_age_s is None or now_s - self._arrived_s[name] <= max_age_s

@@ -63,3 +63,4 @@ class RobotView:
         if status is not None and status.state not in STANDING:
             raise ConflictError("A mission is under way. Stop it before you place the robot elsewhere.")
         self._supervisor.place(site_id, site)
+        self._hub.forget()

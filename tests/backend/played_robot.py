@@ -55,6 +55,7 @@ class PlayedRobot:
         self.stop_reason = ""
         self.refusals: tuple[str, ...] = ()
         self.camera = False
+        self.silent = False
         self.requests: list[Request] = []
         self.stops = 0
         self.site_id: str | None = None
@@ -94,7 +95,8 @@ class PlayedRobot:
                 question = door.receive(50)
                 if question is not None:
                     self._answer(decode(Request, question), publisher, door)
-                publisher.publish(NAV_STATUS.name, self.status())
+                if not self.silent:
+                    publisher.publish(NAV_STATUS.name, self.status())
 
     def _answer(self, request: Request, publisher: Publisher, door: Replier) -> None:
         self.requests.append(request)

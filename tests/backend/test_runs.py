@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import time
 from typing import Any
 
 import msgspec
@@ -189,3 +190,20 @@ def test_a_mission_cannot_start_without_a_robot(
     stop = client.post("/api/runs/current/stop").json()
     assert stop["guard"] is False
     assert "emergency stop" in stop["message"]
+
+
+def test_a_robot_that_was_placed_anew_is_not_ready_before_it_says_so_itself(
+    client: TestClient, robot: PlayedRobot, ready: dict[str, Any]
+) -> None:
+    def status() -> Any:
+        return client.get("/api/live/latest").json()["nav/status"]
+
+    def nothing_comes() -> bool:
+        before = status()
+        time.sleep(0.1)
+        return bool(status() == before)
+
+    robot.silent = True
+    assert until(nothing_comes)
+    assert client.post("/api/robot/site", json={"site_id": ready["site_id"]}).status_code == 200
+    assert client.get("/api/robot").json()["connected"] is False

@@ -40,8 +40,8 @@ def state_is(page: Page, word: str, timeout_s: float = 60.0) -> None:
 
 
 def start_mission(page: Page) -> None:
-    """The deliberate start: open the sheet, then hold the button."""
-    wait_until(page, "the receiver has its fix", lambda: gauge(page, "GNSS") == "RTK fixed")
+    """The deliberate start: open the sheet, then hold the button, which is off while anything stands against it."""
+    state_is(page, "Ready")
     page.get_by_role("button", name="Start …").click()
     hold = page.get_by_role("button", name="Hold to start")
     wait_until(page, "the mission is under way", lambda: hold.count() == 0 or _hold(page, hold), START_S)

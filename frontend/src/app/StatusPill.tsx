@@ -2,7 +2,8 @@ import { useQuery } from "@tanstack/react-query";
 
 import { robotQuery } from "../api/queries";
 import { useFresh, useLink, useTopic } from "../live/hooks";
-import { STATE_TONES, STATE_WORDS, type Tone } from "../ui/words";
+import { stateTone, stateWords } from "../ui/readiness";
+import type { Tone } from "../ui/words";
 import css from "./shell.module.css";
 
 /** What the robot does, or why nothing is known of it. */
@@ -24,5 +25,5 @@ function usePill(): [Tone, string] {
   const status = useTopic("nav/status");
   if (link !== "open") return ["bad", "No link to the station"];
   if (!fresh || !status) return ["bad", "No news from the robot"];
-  return [STATE_TONES[status.state], STATE_WORDS[status.state]];
+  return [stateTone(status), stateWords(status)];
 }

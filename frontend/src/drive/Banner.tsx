@@ -2,7 +2,8 @@ import type { MissionDocument, Preview, SiteDocument } from "../api/types";
 import { useFresh, useTopic } from "../live/hooks";
 import { way } from "../ui/format";
 import { Reasons } from "../ui/Reasons";
-import { MODE_COLORS, headline, why } from "../ui/words";
+import { headline, why } from "../ui/headline";
+import { MODE_COLORS } from "../ui/words";
 import { Controls } from "./Controls";
 import css from "./drive.module.css";
 
@@ -13,6 +14,8 @@ interface Props {
   preview: Preview | undefined;
   onMission: (id: string) => void;
 }
+
+const NEXT = "Choose a mission, then press Start.";
 
 /** What the robot does and why, in one line; beside it what the operator can do about it. */
 export function Banner(props: Props) {
@@ -26,7 +29,7 @@ export function Banner(props: Props) {
     <section className={css.banner} style={{ "--mode": color } as React.CSSProperties}>
       <div className={css.words} aria-live="polite">
         <h1>{fresh && status ? headline(status, names) : "No news from the robot"}</h1>
-        <p className={stopped ? css.stopped : undefined}>{fresh && status ? why(status) : "Controls are off until data arrive. STOP still works."}</p>
+        <p className={stopped ? css.stopped : undefined}>{fresh && status ? why(status) || (events.length === 0 && NEXT) : "Controls are off until data arrive. STOP still works."}</p>
       </div>
       {status && fresh && status.run_id && status.state !== "idle" && <Progress progress={status.progress} remaining={status.remaining} />}
       <Controls {...props} />

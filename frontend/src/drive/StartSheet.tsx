@@ -4,10 +4,11 @@ import { useState } from "react";
 
 import { get, post, sentences } from "../api/client";
 import type { LinkLossPolicy, MissionDocument, Preview, RunDocument, SiteDocument } from "../api/types";
-import { useFresh } from "../live/hooks";
+import { useFresh, useTopic } from "../live/hooks";
 import { duration, way } from "../ui/format";
 import { HoldButton } from "../ui/HoldButton";
 import { Reasons } from "../ui/Reasons";
+import { startHindrances } from "../ui/readiness";
 import { rowWords } from "../ui/words";
 import css from "./drive.module.css";
 
@@ -32,25 +33,31 @@ export function StartSheet({ opened, onClose, ...rest }: Props) {
 
 function Sheet({ onClose, document, mission, preview }: Omit<Props, "opened">) {
   const [linkLoss, setLinkLoss] = useState<LinkLossPolicy>("continue");
-  const fresh = useFresh("nav/status");
   const start = useStart(mission.id, linkLoss, onClose);
-  const problems = preview?.problems ?? [];
-  const refused = start.error ? sentences(start.error) : [];
-  const reasons = [...problems, ...refused, ...(fresh ? [] : ["The data from the robot are older than one second. Wait for the link."])];
+  const hindrances = useHindrances(preview);
+  const refused = start.error ? sentences(start.error).filter((sentence) => !hindrances.includes(sentence)) : [];
   return (
     <div className={css.sheet}>
       <Summary document={document} mission={mission} preview={preview} />
       <LinkLoss value={linkLoss} onChange={setLinkLoss} />
       <Reasons reasons={["The robot will move by itself. Make sure that nobody is in its way. Its own emergency stop comes before this page."]} tone="warn" />
-      <Reasons reasons={reasons} />
-      <HoldButton disabled={!fresh || !preview?.plan || problems.length > 0 || start.isPending} onHeld={() => start.mutate()}>
-        {start.isPending ? "Starting …" : "Hold to start"}
+      <Reasons reasons={[...hindrances, ...refused]} />
+      <HoldButton disabled={hindrances.length > 0 || !preview?.plan || start.isPending} onHeld={() => start.mutate()}>
+        {start.isPending ? "Starting …" : hindrances.length > 0 ? "Cannot start yet" : "Hold to start"}
       </HoldButton>
       <Button variant="default" size="lg" fullWidth onClick={onClose} data-autofocus>
         Cancel
       </Button>
     </div>
   );
+}
+
+/** Everything that stands against the start as long as it lasts: in the plan, in the robot, in the link. */
+function useHindrances(preview: Preview | undefined): string[] {
+  const status = useTopic("nav/status");
+  const fresh = useFresh("nav/status");
+  const ofRobot = status && fresh ? startHindrances(status, preview?.plan ?? null) : ["The data from the robot are older than one second. Wait for the link."];
+  return [...(preview?.problems ?? []), ...ofRobot];
 }
 
 function useStart(mission_id: string, link_loss: LinkLossPolicy, onStarted: () => void) {

@@ -1,6 +1,5 @@
 /** Every state in words. The station's own reasons stand beside them, never instead of them. */
-import type { NavMode, NavStatus, RunOutcome, RunState, SegmentKind } from "../api/types";
-import { centimetres } from "./format";
+import type { NavMode, RunOutcome, RunState, SegmentKind } from "../api/types";
 
 export type Tone = "good" | "busy" | "warn" | "bad" | "quiet";
 
@@ -85,29 +84,3 @@ export const rowWords = (id: string, names?: ReadonlyMap<string, string>) =>
 const UNDER_WAY: ReadonlySet<RunState> = new Set(["starting", "driving", "holding", "paused"]);
 
 export const isUnderWay = (state: RunState | null | undefined) => state !== null && state !== undefined && UNDER_WAY.has(state);
-
-/** The one line an operator reads from ten metres away. */
-export function headline(status: NavStatus, names?: ReadonlyMap<string, string>): string {
-  if (status.state !== "driving") return STATE_WORDS[status.state];
-  const row = status.row_id ? rowWords(status.row_id, names) : "the row";
-  switch (status.mode) {
-    case "gnss_path":
-      return `Driving on GNSS — ${fixWords(status.gnss_quality)}, ${centimetres(positionSigma(status.pose?.covariance))}`;
-    case "row_entry":
-      return `Entering ${row}`;
-    case "row":
-      return `In ${row} on the camera`;
-    case "row_end":
-      return `At the end of ${row}`;
-    case "headland":
-      return "Turning on the headland";
-    default:
-      return STATE_WORDS.driving;
-  }
-}
-
-/** Why it does what it does; of a stopped robot, why it was stopped. */
-export function why({ stop_reason, mode_reason }: NavStatus): string {
-  const reason = stop_reason || mode_reason;
-  return reason.charAt(0).toUpperCase() + reason.slice(1);
-}

@@ -1,0 +1,17 @@
+import { describe, expect, test } from "vitest";
+
+import { bytes, centimetres, degrees, duration, metres, way } from "./format";
+
+describe("numbers carry their unit", () => {
+  test.each([
+    [centimetres(-0.034), "−3 cm"],
+    [centimetres(-0.001), "0 cm"],
+    [centimetres(null), "–"],
+    [metres(Number.NaN), "–"],
+    [degrees(Math.PI / 36), "5.0 °"],
+    [way(1234), "1.23 km"],
+    [duration(3840), "1 h 04 min"],
+    [duration(245), "4 min 05 s"],
+    [bytes(48_200_000), "48.2 MB"],
+  ])("%s", (text, expected) => expect(text).toBe(expected));
+});

@@ -1,0 +1,34 @@
+import type { NavStatus } from "../api/types";
+import { centimetres } from "./format";
+import { stateWords } from "./readiness";
+import { STATE_WORDS, fixWords, positionSigma, rowWords } from "./words";
+
+/** The one line an operator reads from ten metres away. */
+export function headline(status: NavStatus, names?: ReadonlyMap<string, string>): string {
+  return status.state === "driving" ? drivingWords(status, names) : stateWords(status);
+}
+
+/** What a robot drives on. */
+function drivingWords(status: NavStatus, names?: ReadonlyMap<string, string>): string {
+  const row = status.row_id ? rowWords(status.row_id, names) : "the row";
+  switch (status.mode) {
+    case "gnss_path":
+      return `Driving on GNSS — ${fixWords(status.gnss_quality)}, ${centimetres(positionSigma(status.pose?.covariance))}`;
+    case "row_entry":
+      return `Entering ${row}`;
+    case "row":
+      return `In ${row} on the camera`;
+    case "row_end":
+      return `At the end of ${row}`;
+    case "headland":
+      return "Turning on the headland";
+    default:
+      return STATE_WORDS.driving;
+  }
+}
+
+/** Why it does what it does; of a stopped robot, why it was stopped; a robot without a mission has no reasons. */
+export function why({ state, stop_reason, mode_reason }: NavStatus): string {
+  const reason = state === "idle" ? "" : stop_reason || mode_reason;
+  return reason.charAt(0).toUpperCase() + reason.slice(1);
+}
