@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from navcore.bench.evaluate_band import outside_band
 from navcore.bench.evaluate_lines import heading_off_row, path_deviation, row_frame, row_length
 from navcore.bench.evaluate_record import RunRecord
 from navcore.bench.evaluate_switches import SwitchScore, score_switches
@@ -116,7 +117,7 @@ class _Where:
     """Where the robot truly was at each sample (N,) of the truth, relative to path and rows.
 
     Attributes:
-        driven: metres. on_gnss, in_row: flags. from_path: distance from the planned path, m.
+        driven: metres. on_gnss, in_row: flags. from_path: distance left of the planned path, m.
         from_row: distance left of the centre line of the row planned here, NaN away from rows; heading_off: rad.
     """
 
@@ -154,13 +155,9 @@ class _Where:
         return np.asarray(along & (np.abs(frame[:, 1]) < row.width / 2))
 
     def from_wanted_line(self) -> Floats:
-        """Distance from what is to be followed: between plants the true centre line, outside the path or that line.
-
-        Outside of a row the robot goes over from the drawn path to the true line, so the nearer of the two counts.
-        """
-        lateral = np.abs(self.from_row)
-        nearer = np.fmin(lateral, self.from_path)
-        return np.where(self.in_row, lateral, nearer)
+        """Distance from what is to be followed: the true centre line in rows, outside of them `outside_band`."""
+        outside = outside_band(self._record, self._points, self._segment)
+        return np.where(self.in_row, np.abs(self.from_row), outside)
 
     def image_angles(self) -> Floats:
         """Angles of the fitted centre lines in pictures taken inside rows, rad."""

@@ -35,7 +35,7 @@ def heading_off_row(row: TrueRow, yaw: Floats) -> Floats:
 
 
 def path_deviation(plan: MissionPlan, points: Floats) -> Floats:
-    """Distance (N,) of consecutive true positions (N, 2) from the planned path, m.
+    """Distance (N,) of consecutive true positions (N, 2) from the planned path, m, positive on its left.
 
     The match moves on along the path with the robot, so a part of the path that happens to pass nearby never counts.
     """
@@ -50,13 +50,15 @@ def path_deviation(plan: MissionPlan, points: Floats) -> Floats:
 
 
 def _nearest(path: Floats, reach: Floats, point: Floats) -> tuple[float, float]:
-    """Distance to a piece of the path, and the arc length of its nearest point."""
+    """Signed distance to a piece of the path, and the arc length of its nearest point."""
     a, steps = path[:-1], np.diff(path, axis=0)
     squared = np.maximum((steps**2).sum(axis=1), 1e-12)
     share = np.clip(((point - a) * steps).sum(axis=1) / squared, 0.0, 1.0)
-    away = np.linalg.norm(a + share[:, None] * steps - point, axis=1)
+    off = point - a - share[:, None] * steps
+    away = np.hypot(off[:, 0], off[:, 1])
     i = int(away.argmin())
-    return float(away[i]), float(reach[i] + share[i] * math.sqrt(squared[i]))
+    left = steps[i, 0] * off[i, 1] - steps[i, 1] * off[i, 0]
+    return math.copysign(float(away[i]), left), float(reach[i] + share[i] * math.sqrt(squared[i]))
 
 
 def _axis(row: TrueRow) -> tuple[float, float, float]:

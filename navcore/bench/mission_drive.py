@@ -22,6 +22,7 @@ from navcore.messages import (
     Request,
     RequestKind,
     RunState,
+    SegmentKind,
     SimTruth,
 )
 from navcore.perception.onnx_detector import OnnxDetector
@@ -115,6 +116,15 @@ def _mission(case: MissionCase, site: SiteMap) -> Mission:
     return replace(mission, visits=tuple(replace(visit, speed=case.speed) for visit in mission.visits))
 
 
+def on_gnss_alone(plan: MissionPlan) -> MissionPlan:
+    """The same path as nothing but road: followed on GNSS everywhere, in rows too, so that no row has to be seen."""
+    roads = tuple(
+        replace(s, kind=SegmentKind.ROAD, row_id=None, row_start=None, row_end=None, corridor_width=None)
+        for s in plan.segments
+    )
+    return replace(plan, segments=roads)
+
+
 def _eye(case: MissionCase, world: World, config: RobotConfig) -> Eye | None:
     if case.kind in (CaseKind.GNSS_ONLY, CaseKind.TRACK):
         return None
@@ -136,7 +146,8 @@ def _drive(lockstep: Lockstep, plan: MissionPlan, limits: DriveLimits) -> DriveO
     lockstep.run(limits.settle_s)
     builder = RecordBuilder(plan=plan)
     lockstep.listeners.append(lambda tick: _keep(builder, tick))
-    lockstep.ask(Request(kind=RequestKind.START, request_id="start", run_id="bench", plan=plan))
+    driven = plan if lockstep.eye is not None else on_gnss_alone(plan)
+    lockstep.ask(Request(kind=RequestKind.START, request_id="start", run_id="bench", plan=driven))
     reply = lockstep.tick().decision.replies[0]
     if not reply.accepted:
         return DriveOutcome(state="refused", why=" ".join(reply.reasons), record=None)

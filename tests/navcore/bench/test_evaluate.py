@@ -160,7 +160,7 @@ def switch(x: float, before: NavMode, after: NavMode) -> ModeSwitch:
 
 
 def test_a_switch_is_scored_by_the_largest_error_within_two_metres(plan: MissionPlan) -> None:
-    record = drive(plan, lambda x: ideal(x) + (0.12 if 29.0 < x < 29.5 else 0.5 if x < 20.0 else 0.0))
+    record = drive(plan, lambda x: ideal(x) - (0.3 if 29.0 < x < 29.5 else 0.5 if x < 20.0 else 0.0))
     result = evaluate(replace(record, switches=(switch(28.0, NavMode.GNSS_PATH, NavMode.ROW),)))
     assert 0.05 < (result.switches[0].lateral_m or 0.0) <= 0.21
 
