@@ -16,6 +16,7 @@ from navcore.geometry.se2 import SE2
 
 Floats = NDArray[np.float64]
 Polygon = Sequence[tuple[float, float]]
+_CLEAR = SpeedLimit(speed=math.inf, reason="clear of zone edges")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -52,6 +53,9 @@ class StopZones:
     ) -> None:  # fmt: skip
         self._keep_in = _outline([_checked(p) for p in keep_in])
         self._keep_out = _outline([_checked(p) for p in keep_out])
+        self._edges = np.vstack((self._keep_in, self._keep_out))
+        # Middle and radius of a circle without an edge, on the right side.
+        self._clear = (0.0, 0.0, 0.0)
         self._half = (length / 2, width / 2)
         self._params, self._regulation = params, regulation
 
@@ -62,15 +66,29 @@ class StopZones:
             v: speed now, m/s; curvature: of the motion commanded, 1/m; std: 1-sigma of the position, m.
         """
         margin = self._params.margin + self._params.sigmas * std
+        if self._still_clear(T_map_driving, self._reach(v) + math.hypot(*self._half) + margin):
+            return _CLEAR
         wrong_side = self._wrong_side(T_map_driving.x, T_map_driving.y)
         if wrong_side is not None:
             return SpeedLimit(speed=0.0, reason=wrong_side)
+        self._clear = (T_map_driving.x, T_map_driving.y, _to_nearest(self._edges, T_map_driving.x, T_map_driving.y))
         distance, what = self._free_way(self._swept(T_map_driving, v, curvature), margin)
         if distance is None:
-            return SpeedLimit(speed=math.inf, reason="clear of zone edges")
+            return _CLEAR
         return SpeedLimit(
             speed=braking_speed(distance, 0.0, self._regulation), reason=f"{what} {distance:.1f} m ahead"
         )
+
+    def _still_clear(self, T_map_driving: SE2, needed: float) -> bool:
+        """No edge within `needed` m, as far as the last look at all of them tells: most ticks need no other."""
+        x, y, radius = self._clear
+        return math.hypot(T_map_driving.x - x, T_map_driving.y - y) + needed < radius
+
+    def _reach(self, v: float) -> float:
+        """Way looked at: over reaction and braking and a little more, m."""
+        p, r = self._params, self._regulation
+        way = abs(v) * r.reaction + v * v / (2.0 * r.braking) + p.least_sweep
+        return min(way, p.most_sweep) + p.step
 
     def _wrong_side(self, x: float, y: float) -> str | None:
         if len(self._keep_in) and not _contains(self._keep_in, x, y):
@@ -80,10 +98,8 @@ class StopZones:
         return None
 
     def _swept(self, T_map_driving: SE2, v: float, curvature: float) -> Floats:
-        """Poses (N, 3) along the arc that is being driven, over reaction and braking and a little more."""
-        p, r = self._params, self._regulation
-        reach = abs(v) * r.reaction + v * v / (2.0 * r.braking) + p.least_sweep
-        ways = np.arange(0.0, min(reach, p.most_sweep) + p.step, p.step)
+        """Poses (N, 3) along the arc that is being driven."""
+        ways = np.arange(0.0, self._reach(v), self._params.step)
         poses = [T_map_driving @ SE2.arc(float(way), float(way) * curvature) for way in ways]
         return np.array([(q.x, q.y, q.yaw) for q in poses], dtype=np.float64)
 
@@ -127,6 +143,16 @@ def _contains(edges: Floats, x: float, y: float) -> bool:
     crosses = (y0 > y) != (y1 > y)
     rise = np.where(crosses, y1 - y0, 1.0)
     return bool(np.count_nonzero(crosses & (x < x0 + (y - y0) * (x1 - x0) / rise)) % 2)
+
+
+def _to_nearest(edges: Floats, x: float, y: float) -> float:
+    """Distance to the nearest edge, m; infinite without edges."""
+    if not len(edges):
+        return math.inf
+    ax, ay = edges[:, 0] - x, edges[:, 1] - y
+    bx, by = edges[:, 2] - edges[:, 0], edges[:, 3] - edges[:, 1]
+    share = np.clip(-(ax * bx + ay * by) / np.maximum(bx * bx + by * by, 1e-12), 0.0, 1.0)
+    return float(np.hypot(ax + share * bx, ay + share * by).min())
 
 
 def _near(edges: Floats, poses: Floats, radius: float) -> Floats:

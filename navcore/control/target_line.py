@@ -61,15 +61,22 @@ def target_from_path(
     """
     hit = path.project(T_map_driving.x, T_map_driving.y, near_s)
     s0, s1 = hit.s - BEHIND, hit.s + hit.beyond + AHEAD
-    first, last = np.searchsorted(path.s, (s0 + 1e-6, s1 - 1e-6))
-    inner = path.points[first:last]
-    points = np.vstack((path.at(s0), inner, path.at(s1)))
+    if s0 > 0.0 and s1 < path.length:
+        seen = path.seen_from(T_map_driving, s0, s1)
+        s = hit.s - path.vertex_before(s0)
+    else:
+        seen, s = _prolonged(path, T_map_driving, s0, s1), BEHIND + hit.beyond
     return TargetLine(
-        source=source, stamp_ns=stamp_ns, max_age_ns=max_age_ns,
-        path=Polyline(T_map_driving.inverse().apply(points)), s=BEHIND + hit.beyond,
-        lateral_error=hit.lateral, heading_error=wrap(T_map_driving.yaw - hit.heading),
-        remaining=path.length - hit.s - hit.beyond,
+        source=source, stamp_ns=stamp_ns, max_age_ns=max_age_ns, path=seen, s=s, lateral_error=hit.lateral,
+        heading_error=wrap(T_map_driving.yaw - hit.heading), remaining=path.length - hit.s - hit.beyond,
     )  # fmt: skip
+
+
+def _prolonged(path: Polyline, T_map_driving: SE2, s0: float, s1: float) -> Polyline:
+    """The stretch in the driving frame, going on straight beyond the path's ends."""
+    first, last = np.searchsorted(path.s, (s0 + 1e-6, s1 - 1e-6))
+    points = np.vstack((path.at(s0), path.points[first:last], path.at(s1)))
+    return Polyline(T_map_driving.inverse().apply(points))
 
 
 def target_from_line(

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from navcore.errors import InputError, NotFiniteError
 from navcore.geometry.angles import wrap_all
+from navcore.geometry.se2 import SE2
 
 Floats = NDArray[np.float64]
 
@@ -59,14 +60,19 @@ class Polyline:
         if not self.s[-1] > 0.0:
             raise InputError("A path needs at least two different points.")
         self._heading = _segment_headings(steps, self._lengths)
+        self._curvature = _vertex_curvature(self._heading, self._lengths)
+        self._prepared()
+
+    def _prepared(self) -> Polyline:
+        """Itself, with what queries need."""
         self._ux, self._uy = np.cos(self._heading), np.sin(self._heading)
         self._x, self._y = self.points[:, 0].copy(), self.points[:, 1].copy()
         # Complex numbers turn a point into a segment's own frame in one product: half the time of real arithmetic.
         self._start, self._turn_back = self._x[:-1] + 1j * self._y[:-1], self._ux - 1j * self._uy
         self._s_list: list[float] = self.s.tolist()
-        self._curvature = _vertex_curvature(self._heading, self._lengths)
         for array in (self.points, self.s):
             array.setflags(write=False)
+        return self
 
     @property
     def length(self) -> float:
@@ -109,6 +115,10 @@ class Polyline:
 
     def _segment(self, s: float) -> int:
         return min(max(bisect_right(self._s_list, s) - 1, 0), len(self._s_list) - 2)
+
+    def vertex_before(self, s: float) -> float:
+        """Arc length of the last vertex at or before `s` that begins a segment."""
+        return self._s_list[self._segment(s)]
 
     def at(self, s: float) -> tuple[float, float]:
         """Point at arc length `s`; outside [0, length] on the straight prolongation of the first or last segment."""
@@ -153,6 +163,21 @@ class Polyline:
             raise InputError("A slice of a path needs a start before its end, both on the path.")
         inner = self.points[(self.s > s0 + 1e-9) & (self.s < s1 - 1e-9)]
         return Polyline(np.vstack((self.at(s0), inner, self.at(s1))))
+
+    def seen_from(self, T_path_viewer: SE2, s0: float, s1: float) -> Polyline:
+        """The vertices from the last one before `s0` to the first one after `s1`, in the viewer's frame.
+
+        As quick as it can be, for a robot asks in every tick: lengths and curvatures are those of the path.
+        """
+        first = self._segment(s0)
+        last = max(min(bisect_left(self._s_list, s1), len(self._s_list) - 1), first + 1)
+        seen = Polyline.__new__(Polyline)
+        seen.points = T_path_viewer.inverse().apply(self.points[first : last + 1])
+        seen.s = self.s[first : last + 1] - self.s[first]
+        seen._lengths = self._lengths[first:last]
+        seen._heading = wrap_all(self._heading[first:last] - T_path_viewer.yaw)
+        seen._curvature = self._curvature[first : last + 1]
+        return seen._prepared()
 
     def resampled(self, step: float) -> Polyline:
         """The same course with points evenly spaced by at most `step` m; corners between them are cut."""

@@ -97,3 +97,15 @@ def test_standing_still_against_one_s_will_is_noticed_after_ten_seconds() -> Non
     assert not check.stuck(12 * second, 5.6)
     check.reset()
     assert not check.stuck(100 * second, 5.6)
+
+
+@given(st.integers(0, 1000))
+def test_what_was_seen_before_never_changes_the_answer(seed: int) -> None:
+    """Zones that were asked all along the way answer as zones that were never asked before."""
+    rng = np.random.default_rng(seed)
+    known, pose = zones([FIELD], [SHED]), SE2(0.0, 0.0, float(rng.uniform(-3, 3)))
+    for _ in range(40):
+        pose = pose @ SE2.arc(float(rng.uniform(0.0, 0.6)), float(rng.uniform(-0.3, 0.3)))
+        v, curvature = float(rng.uniform(0.0, 1.0)), float(rng.uniform(-0.3, 0.3))
+        fresh = zones([FIELD], [SHED]).limit(pose, v=v, curvature=curvature)
+        assert known.limit(pose, v=v, curvature=curvature) == fresh

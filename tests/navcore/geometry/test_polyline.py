@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from navcore.errors import InputError, NotFiniteError
 from navcore.geometry.polyline import Polyline
+from navcore.geometry.se2 import SE2
 
 coordinates = st.floats(-50.0, 50.0)
 courses = st.lists(st.tuples(coordinates, coordinates), min_size=2, max_size=12)
@@ -116,3 +117,16 @@ def test_numbers_that_are_none_are_refused() -> None:
         Polyline(np.array([(0.0, 0.0), (math.nan, 1.0)]))
     with pytest.raises(NotFiniteError):
         circle(5.0).project(math.nan, 0.0)
+
+
+@given(st.floats(1.0, 20.0), st.floats(-60.0, 60.0), st.floats(-60.0, 60.0), st.floats(-4.0, 4.0))
+def test_a_part_seen_from_elsewhere_is_the_same_part(s0: float, x: float, y: float, yaw: float) -> None:
+    path, viewer = circle(10.0), SE2(x, y, yaw)
+    seen, first = path.seen_from(viewer, s0, s0 + 9.5), path.vertex_before(s0)
+    assert first <= s0 <= first + 0.2
+    assert first + seen.length >= s0 + 9.5
+    for along in (0.0, 3.3, 9.0):
+        assert seen.at(along) == pytest.approx(viewer.inverse().apply_point(*path.at(first + along)), abs=1e-9)
+        assert seen.curvature_at(along) == pytest.approx(path.curvature_at(first + along), abs=1e-9)
+        turned = seen.heading_at(along + 0.01) + yaw - path.heading_at(first + along + 0.01)
+        assert math.remainder(turned, 2 * math.pi) == pytest.approx(0.0, abs=1e-9)
