@@ -11,7 +11,7 @@ from pathlib import Path
 
 from navcore.bench.mission_cases import CaseParams, MissionCase, mission_cases
 from navcore.bench.mission_result import MissionResult, append_result, missing, read_results, run_case
-from navcore.bench.provenance import commit, machine
+from navcore.bench.provenance import machine
 
 RESULTS = "missions.jsonl"
 # One thread each: two missions side by side keep two cores busy as they are.
@@ -23,7 +23,7 @@ class Bench:
     """What was measured, on what.
 
     Attributes:
-        commit: of the working tree, with "+" if it was changed; "unknown" outside a repository.
+        commit: those on which the results were driven, which are several where a bench was resumed on another one.
     """
 
     results: tuple[MissionResult, ...]
@@ -43,7 +43,8 @@ def run_bench(
         append_result(folder / RESULTS, result)
         done[result.case.id] = result
         progress(result, len(missing(cases, done)))
-    return Bench(results=tuple(done[c.id] for c in cases), commit=commit(), machine=machine())
+    results = tuple(done[c.id] for c in cases)
+    return Bench(results=results, commit=", ".join(sorted({r.commit for r in results})), machine=machine())
 
 
 def _driven(cases: list[MissionCase], processes: int) -> Iterator[MissionResult]:

@@ -11,6 +11,7 @@ import msgspec
 from navcore.bench.evaluate import Evaluation, evaluate
 from navcore.bench.mission_cases import MissionCase
 from navcore.bench.mission_drive import drive_case
+from navcore.bench.provenance import commit
 from navcore.config import RobotConfig
 from navcore.errors import LogError, MissionError
 
@@ -21,12 +22,14 @@ class MissionResult:
     state: of the mission at the end; "refused" where it did not start, "unplannable" where there was no plan.
     why: what the operator was told last; empty after a finished mission.
     evaluation: None where the robot never drove.
+    commit: on which it was driven.
     """
 
     case: MissionCase
     state: str
     why: str
     evaluation: Evaluation | None
+    commit: str = "unknown"
 
     @property
     def clean(self) -> bool:
@@ -36,14 +39,15 @@ class MissionResult:
 
 def run_case(case: MissionCase) -> MissionResult:
     """Drive and score one case with the shipped settings."""
+    made = commit()
     try:
         outcome = drive_case(case, RobotConfig())
         evaluation = evaluate(outcome.record) if outcome.record is not None else None
     except MissionError as error:
-        return MissionResult(case=case, state="unplannable", why=str(error), evaluation=None)
+        return MissionResult(case=case, state="unplannable", why=str(error), evaluation=None, commit=made)
     except LogError as error:
-        return MissionResult(case=case, state="never drove", why=str(error), evaluation=None)
-    return MissionResult(case=case, state=outcome.state, why=outcome.why, evaluation=evaluation)
+        return MissionResult(case=case, state="never drove", why=str(error), evaluation=None, commit=made)
+    return MissionResult(case=case, state=outcome.state, why=outcome.why, evaluation=evaluation, commit=made)
 
 
 def append_result(path: Path, result: MissionResult) -> None:
