@@ -7,15 +7,15 @@ the thread that made them.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from types import TracebackType
-from typing import Any, NamedTuple, Self
+from typing import Any, NamedTuple
 
 import zmq
 
 from navcore.errors import TransportError
 from navcore.topics import TOPICS
+from navcore.transport.bus_socket import BusSocket
 from navcore.transport.codec import encode
-from navcore.transport.endpoints import SOCKET_MODE, Endpoints, zmq_address
+from navcore.transport.endpoints import Endpoints
 
 QUEUE_LENGTH = 256  # messages per reader: 2 s of all topics of the busiest publisher
 
@@ -28,19 +28,15 @@ class Received(NamedTuple):
     attachment: bytes
 
 
-class Publisher:
+class Publisher(BusSocket):
     """The one outlet of a process."""
 
     def __init__(self, endpoints: Endpoints, process: str) -> None:
         """`process` is the publisher's name in the table of topics."""
+        super().__init__(zmq.PUB)
         self.process = process
-        self._context = zmq.Context()
-        self._socket = self._context.socket(zmq.PUB)
         self._socket.set_hwm(QUEUE_LENGTH)
-        self._socket.linger = 0
-        path = endpoints.publisher(process)
-        self._socket.bind(zmq_address(path))
-        path.chmod(SOCKET_MODE)
+        self._bind(endpoints.publisher(process))
 
     def publish(self, topic: str, message: Any, attachment: bytes = b"") -> bytes:
         """Send a message, encoded once, and return its bytes; a message of type `bytes` is taken as encoded."""
@@ -50,37 +46,19 @@ class Publisher:
         self._socket.send_multipart((topic.encode(), payload, attachment), copy=len(attachment) < 65536)
         return payload
 
-    def close(self) -> None:
-        """Drop what is still queued."""
-        self._socket.close()
-        self._context.term()
 
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None
-    ) -> None:
-        self.close()
-
-
-class Subscriber:
+class Subscriber(BusSocket):
     """An inlet for some topics. May start before their publishers, and finds them again when they restart."""
 
     def __init__(self, endpoints: Endpoints, topics: Iterable[str], queue_length: int = QUEUE_LENGTH) -> None:
         """`queue_length` is in messages; what does not fit is lost."""
-        names = tuple(topics)
-        self._context = zmq.Context()
-        self._socket = self._context.socket(zmq.SUB)
+        super().__init__(zmq.SUB)
+        self._names = frozenset(topics)
         self._socket.set_hwm(queue_length)
-        self._socket.linger = 0
-        self._socket.reconnect_ivl = 20
-        self._socket.reconnect_ivl_max = 200
-        for name in names:
+        for name in self._names:
             self._socket.subscribe(name.encode())
-        for process in sorted({TOPICS[name].publisher for name in names}):
-            self._socket.connect(zmq_address(endpoints.publisher(process)))
-        self._names = frozenset(names)
+        for process in sorted({TOPICS[name].publisher for name in self._names}):
+            self._connect(endpoints.publisher(process))
 
     def receive(self, timeout_ms: int) -> Received | None:
         """The next message, or None if none came in time."""
@@ -99,16 +77,3 @@ class Subscriber:
             newest[received.name] = received
             received = self.receive(0)
         return newest
-
-    def close(self) -> None:
-        """Stop listening."""
-        self._socket.close()
-        self._context.term()
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None
-    ) -> None:
-        self.close()

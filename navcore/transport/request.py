@@ -6,27 +6,26 @@ Sockets belong to the thread that made them.
 from __future__ import annotations
 
 from pathlib import Path
-from types import TracebackType
-from typing import Any, Self, TypeVar
+from typing import Any, TypeVar
 
 import zmq
 
 from navcore.errors import TransportError
+from navcore.transport.bus_socket import BusSocket
 from navcore.transport.codec import decode, encode
-from navcore.transport.endpoints import SOCKET_MODE, zmq_address
 
 T = TypeVar("T")
 
 
-class Requester:
+class Requester(BusSocket):
     """Asks one process. An unanswered question is given up, and the next one starts afresh."""
 
     def __init__(self, address: Path, asked: str) -> None:
         """`asked` names the other process in errors, such as "navigator"."""
+        super().__init__(zmq.REQ)
         self._address = address
         self._asked = asked
-        self._context = zmq.Context()
-        self._socket = self._open()
+        self._connect(address)
 
     def ask(self, message: Any, reply_type: type[T], timeout_ms: int = 1000) -> T:
         """Send a message and wait for its answer. Raises TransportError if none comes in time."""
@@ -39,42 +38,19 @@ class Requester:
             )
         return decode(reply_type, self._socket.recv())
 
-    def _open(self) -> zmq.Socket[bytes]:
-        socket = self._context.socket(zmq.REQ)
-        socket.linger = 0
-        socket.reconnect_ivl = 20
-        socket.reconnect_ivl_max = 200
-        socket.connect(zmq_address(self._address))
-        return socket
-
     def _reopen(self) -> None:
         """A REQ socket that waits for an answer accepts no question: only a new one does."""
         self._socket.close()
         self._socket = self._open()
-
-    def close(self) -> None:
-        """Give up whatever is pending."""
-        self._socket.close()
-        self._context.term()
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None
-    ) -> None:
-        self.close()
+        self._connect(self._address)
 
 
-class Replier:
+class Replier(BusSocket):
     """Answers questions, one after the other. Every received question must be answered."""
 
     def __init__(self, address: Path) -> None:
-        self._context = zmq.Context()
-        self._socket = self._context.socket(zmq.REP)
-        self._socket.linger = 0
-        self._socket.bind(zmq_address(address))
-        address.chmod(SOCKET_MODE)
+        super().__init__(zmq.REP)
+        self._bind(address)
 
     def receive(self, timeout_ms: int) -> bytes | None:
         """The next question, still encoded, or None if none came in time."""
@@ -83,16 +59,3 @@ class Replier:
     def reply(self, message: Any) -> None:
         """Answer the question received last."""
         self._socket.send(encode(message))
-
-    def close(self) -> None:
-        """Stop answering."""
-        self._socket.close()
-        self._context.term()
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None
-    ) -> None:
-        self.close()
