@@ -14,10 +14,10 @@ from threading import Lock, Thread, Timer
 
 from backend.errors import NotFoundError, TooLargeError
 from backend.gdal_setup import DRIVERS_OFF, OPTIONS
+from backend.ids import new_id
 from backend.orthophoto_import import BROKEN
 from backend.schemas import Job, JobState
 from backend.settings import Settings
-from backend.sites import new_id
 from navcore.errors import OrthophotoError, RowpilotError
 
 MOST_RUNNING = 2

@@ -7,10 +7,11 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
+from backend.ids import new_id
 from backend.import_jobs import site_name
 from backend.models import Orthophoto
 from backend.picture_store import PictureStore
-from backend.sites import SiteStore, new_id
+from backend.sites import SiteStore
 from navcore.maps.site_map import Datum, SiteMap
 
 

@@ -7,11 +7,13 @@ import shutil
 from contextlib import suppress
 from threading import Lock
 
-from backend import missions, sites
+from backend import documents, missions, sites
 from backend.audit import AuditBook
 from backend.database import Database
 from backend.errors import RefusedError
+from backend.ids import new_id
 from backend.logins import Login
+from backend.models import Mission, Site
 from backend.navigator import NavigatorClient
 from backend.recorder import RecorderClient
 from backend.robot import RobotView
@@ -67,8 +69,8 @@ class RunStarter:
 
     def _prepare(self, mission_id: str, link_loss: LinkLossPolicy) -> NewRun:
         with self._database.read() as session:
-            mission_row = missions.find(session, mission_id)
-            site_row = sites.find(session, mission_row.site_id)
+            mission_row = documents.find(session, Mission, mission_id)
+            site_row = documents.find(session, Site, mission_row.site_id)
             mission, site = missions.mission(mission_row), sites.site_map(site_row)
         reasons = [*self._disk_reasons(), *self._robot.start_reasons(site_row.id, site_row.name)]
         try:
@@ -78,7 +80,7 @@ class RunStarter:
         if reasons:
             raise RefusedError(CANNOT_START, reasons)
         return NewRun(
-            id=sites.new_id(),
+            id=new_id(),
             site_id=site_row.id,
             mission_id=mission_id,
             site=site,

@@ -1,25 +1,18 @@
-"""Sites in the database: read, write, and refuse what was made from an old version."""
+"""Sites in the database."""
 
 from __future__ import annotations
 
-import secrets
 from datetime import UTC, datetime
 
 from sqlalchemy import func, select
-from sqlalchemy.orm import Session
-from sqlalchemy.orm.exc import StaleDataError
 
+from backend import documents
 from backend.database import Database
-from backend.errors import ConflictError, NotFoundError
+from backend.ids import new_id
 from backend.models import Mission, Orthophoto, Site
 from backend.schemas import OrthophotoInfo, SiteDocument, SiteSummary
 from navcore.maps.site_map import SiteMap
 from navcore.transport.codec import decode, encode
-
-
-def new_id() -> str:
-    """A name made by the station; no client ever names a row or a file."""
-    return secrets.token_hex(8)
 
 
 class SiteStore:
@@ -39,7 +32,7 @@ class SiteStore:
     def get(self, site_id: str) -> SiteDocument:
         """Raises NotFoundError."""
         with self._database.read() as session:
-            return _document(find(session, site_id))
+            return _document(documents.find(session, Site, site_id))
 
     def create(self, site: SiteMap, orthophoto: Orthophoto | None = None) -> SiteDocument:
         """Store a new site, with its picture if it has one, in one transaction."""
@@ -52,19 +45,12 @@ class SiteStore:
 
     def update(self, site_id: str, version: int, site: SiteMap) -> SiteDocument:
         """Replace the map. Raises ConflictError if `version` is not the stored one."""
-        try:
-            with self._database.write() as session:
-                row = find(session, site_id)
-                _refuse_stale(row.version, version)
-                row.name, row.document, row.updated = site.name, encode(site), datetime.now(UTC)
-        except StaleDataError as error:
-            raise _stale() from error
-        return _document(row)
+        return _document(documents.change(self._database, Site, site_id, version, site))
 
     def set_orthophoto(self, site_id: str, orthophoto: Orthophoto) -> str | None:
         """Put a picture under a site. Returns the id of the picture that lay there before."""
         with self._database.write() as session:
-            row = find(session, site_id)
+            row = documents.find(session, Site, site_id)
             before = row.orthophoto
             row.orthophoto, row.updated = orthophoto, datetime.now(UTC)
             if before is not None:
@@ -74,7 +60,7 @@ class SiteStore:
     def delete(self, site_id: str) -> str | None:
         """Delete a site and its missions; runs keep their own copies. Returns the id of its picture."""
         with self._database.write() as session:
-            row = find(session, site_id)
+            row = documents.find(session, Site, site_id)
             picture = row.orthophoto
             session.delete(row)
             if picture is not None:
@@ -85,14 +71,6 @@ class SiteStore:
         """Pictures that belong to a site."""
         with self._database.read() as session:
             return set(session.scalars(select(Orthophoto.id)))
-
-
-def find(session: Session, site_id: str) -> Site:
-    """The row of a site. Raises NotFoundError."""
-    row = session.get(Site, site_id)
-    if row is None:
-        raise NotFoundError("There is no such site. It may have been deleted: go back to the list of sites.")
-    return row
 
 
 def site_map(row: Site) -> SiteMap:
@@ -139,12 +117,3 @@ def _summary(row: Site, missions: int) -> SiteSummary:
         orthophoto=orthophoto_info(row.orthophoto) if row.orthophoto else None,
         updated=row.updated,
     )
-
-
-def _refuse_stale(stored: int, sent: int) -> None:
-    if stored != sent:
-        raise _stale()
-
-
-def _stale() -> ConflictError:
-    return ConflictError("The site was changed elsewhere meanwhile. Load it again and repeat your change.")

@@ -10,8 +10,8 @@ from anyio import open_file
 from starlette.requests import Request
 
 from backend.errors import DiskFullError, TooLargeError
+from backend.ids import new_id
 from backend.settings import Settings
-from backend.sites import new_id
 
 
 async def receive(request: Request, settings: Settings) -> Path:

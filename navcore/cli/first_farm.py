@@ -52,9 +52,9 @@ def _known_to_robot(settings: Settings) -> list[str]:
 def _make_demo(settings: Settings, database: Database) -> None:
     """Demo farm, its picture, and missions that are ready to start, through the station's own doors."""
     from backend import uploads
+    from backend.ids import new_id
     from backend.import_jobs import ImportJobs
     from backend.missions import MissionStore
-    from backend.sites import new_id
     from navcore.sim.orthophoto_painter import write_orthophoto
 
     uploads.clear(settings)
