@@ -10,8 +10,11 @@ from typing import Any, get_type_hints
 
 import msgspec
 
+from navcore.drivers.camera_capture import CameraParams
 from navcore.errors import ConfigError
+from navcore.geometry.pinhole import robot_camera
 from navcore.maps.site_map import Datum
+from navcore.messages import CameraName
 from navcore.navigator import Navigator, NavigatorParams
 from navcore.perception.row_perception import RowPerceptionParams
 from navcore.vehicle import PROFILES, VehicleParams
@@ -23,12 +26,12 @@ class RobotConfig:
 
     Attributes:
         vehicle: name of a profile in `vehicle.PROFILES`.
-        camera_width_px, camera_height_px: of the pictures that are looked at.
+        front_camera, rear_camera: of a real robot; a simulated one has paper A's.
     """
 
     vehicle: str = "paper_a"
-    camera_width_px: int = 640
-    camera_height_px: int = 360
+    front_camera: CameraParams = field(default_factory=CameraParams)
+    rear_camera: CameraParams = field(default_factory=lambda: CameraParams(mount=robot_camera(rear=True)))
     navigator: NavigatorParams = field(default_factory=NavigatorParams)
     perception: RowPerceptionParams = field(default_factory=RowPerceptionParams)
 
@@ -37,6 +40,10 @@ class RobotConfig:
         if self.vehicle not in PROFILES:
             raise ConfigError(f"There is no vehicle '{self.vehicle}'. Known are: {', '.join(PROFILES)}.")
         return PROFILES[self.vehicle]
+
+    def cameras(self) -> dict[CameraName, CameraParams]:
+        """Both cameras by name."""
+        return {CameraName.FRONT: self.front_camera, CameraName.REAR: self.rear_camera}
 
     def new_navigator(self, datum: Datum) -> Navigator:
         """A navigator for a site with this datum."""

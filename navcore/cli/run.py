@@ -31,7 +31,9 @@ def run(
         str | None, typer.Option(help="Receiver, tcp://host:port or serial:///dev/ttyUSB0?115200.")
     ] = None,
     config: Annotated[Path | None, typer.Option(help="Settings of the robot, TOML.")] = None,
-    simulation: Annotated[str, typer.Option(help='What is simulated, JSON, such as \'{"season": "full"}\'.')] = "{}",
+    simulation: Annotated[
+        str, typer.Option(help='What is simulated, JSON, such as \'{"season": "dormant", "light": "overcast"}\'.')
+    ] = "{}",
 ) -> None:
     """Serve the station and drive the robot. Ends with Ctrl-C; the robot then stops."""
     try:

@@ -94,7 +94,8 @@ def world_arguments(robot: Robot) -> tuple[str, ...]:
 
 def row_worker_arguments(robot: Robot) -> tuple[str, ...]:
     """See row_worker."""
-    return (*_bus(robot), *_site(robot), *_config(robot), *_simulation(robot))
+    drawn = () if robot.simulation is None else _simulation(robot)
+    return (*_bus(robot), *_site(robot), *_config(robot), *drawn)
 
 
 PROCESSES: tuple[ProcessSpec, ...] = (
@@ -111,8 +112,7 @@ PROCESSES: tuple[ProcessSpec, ...] = (
         name="navigator", module="navcore.runtime.navigator_process", arguments=navigator_arguments, knows_site=True
     ),
     ProcessSpec(
-        name="row_worker", module="navcore.runtime.row_worker", arguments=row_worker_arguments, simulated_only=True,
-        knows_site=True,
+        name="row_worker", module="navcore.runtime.row_worker", arguments=row_worker_arguments, knows_site=True
     ),
     ProcessSpec(name="station", module="backend", arguments=lambda robot: ()),
 )  # fmt: skip

@@ -3,17 +3,23 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Mapping
 
 import numpy as np
 
+from navcore.drivers.camera_capture import Picture
+from navcore.geometry.pinhole import PinholeCamera
 from navcore.messages import CameraName, SimTruth
-from navcore.perception.detector import Detector, Image
+from navcore.perception.detector import Detector
 from navcore.perception.onnx_detector import OnnxDetector
-from navcore.runtime.simulated_eye import robot_cameras
 from navcore.runtime.simulation import DetectorKind, SimulationParams
 from navcore.sim.camera_renderer import CameraRenderer, Scene
 from navcore.sim.orchard import Orchard
 from navcore.sim.projected_objects import ProjectedObjects, ProjectedObjectsParams
+from navcore.topics import SIM_TRUTH
+from navcore.transport.codec import decode
+from navcore.transport.endpoints import Endpoints
+from navcore.transport.pubsub import Subscriber
 
 MS = 1_000_000
 
@@ -21,13 +27,16 @@ MS = 1_000_000
 class SimulatedCameras:
     """Both cameras. Their detector sees pixels, or if so chosen boxes from the truth with a detector's faults."""
 
-    def __init__(self, orchard: Orchard, params: SimulationParams) -> None:
+    def __init__(self, endpoints: Endpoints, orchard: Orchard, params: SimulationParams) -> None:
         light = params.light_params()
         scene = Scene(orchard, light)
-        cameras = robot_cameras()
+        self.mounts: Mapping[CameraName, PinholeCamera] = params.mounts()
+        self._bus = Subscriber(endpoints, (SIM_TRUTH.name,))
+        cameras = self.mounts
         self._renderers = {n: CameraRenderer(orchard, c, light, scene=scene) for n, c in cameras.items()}
         self._latency_ns = params.camera_latency_ms * MS
         self._frames = 0
+        self._truth: SimTruth | None = None
         self._knowing: dict[CameraName, ProjectedObjects] = {}
         if params.detector is DetectorKind.TRUTH:
             faults, rng = ProjectedObjectsParams(), np.random.default_rng(params.world_seed)
@@ -40,13 +49,21 @@ class SimulatedCameras:
         shipped = OnnxDetector()
         return dict.fromkeys(self._renderers, shipped)
 
-    def take(self, truth: SimTruth, camera: CameraName) -> Image:
-        """The picture exposed at `truth.stamp_ns`, once the camera's latency has passed."""
-        image = self._renderers[camera].render(truth, self._frames).image
+    def take(self, camera: CameraName) -> Picture | None:
+        """The picture from where the robot truly is, once the camera's latency has passed. None without a truth."""
+        received = self._bus.newest(0).get(SIM_TRUTH.name)
+        self._truth = decode(SimTruth, received.payload) if received is not None else self._truth
+        if self._truth is None:
+            return None
+        image = self._renderers[camera].render(self._truth, self._frames).image
         self._frames += 1
         if self._knowing:
-            self._knowing[camera].look_from(truth)
-        wait_ns = truth.stamp_ns + self._latency_ns - time.monotonic_ns()
+            self._knowing[camera].look_from(self._truth)
+        wait_ns = self._truth.stamp_ns + self._latency_ns - time.monotonic_ns()
         if wait_ns > 0:
             time.sleep(wait_ns * 1e-9)
-        return image
+        return Picture(image=image, stamp_ns=self._truth.stamp_ns)
+
+    def close(self) -> None:
+        """See `Cameras`."""
+        self._bus.close()

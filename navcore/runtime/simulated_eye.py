@@ -12,9 +12,12 @@ from navcore.sim.orchard import Orchard
 from navcore.sim.projected_objects import ProjectedObjects, ProjectedObjectsParams
 
 
-def robot_cameras() -> dict[CameraName, PinholeCamera]:
+def robot_cameras(*, width_px: int = 640, height_px: int = 360) -> dict[CameraName, PinholeCamera]:
     """Front and rear camera of the default robot."""
-    return {CameraName.FRONT: robot_camera(), CameraName.REAR: robot_camera(rear=True)}
+    return {
+        name: robot_camera(rear=name is CameraName.REAR, width_px=width_px, height_px=height_px)
+        for name in CameraName
+    }
 
 
 class ProjectedEye:

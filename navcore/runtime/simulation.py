@@ -5,7 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import StrEnum
 
+from navcore.geometry.pinhole import PinholeCamera
 from navcore.maps.site_map import SiteMap
+from navcore.messages import CameraName
+from navcore.runtime.simulated_eye import robot_cameras
 from navcore.sim.camera_light import LightName, LightParams, named_light
 from navcore.sim.orchard import OrchardParams, Season
 from navcore.sim.world import World, WorldParams
@@ -27,6 +30,7 @@ class SimulationParams:
         world_seed: of everything random; >= 0.
         season: leaves on the canopy. light: sun, clouds, lamp.
         camera_latency_ms: from exposure until the picture is there, 0 to 500; drawing it takes part of that time.
+        picture_width_px, picture_height_px: of the drawn pictures; the published 1280 x 720 takes four times as long.
         detector: what finds trunks and posts.
     """
 
@@ -34,12 +38,18 @@ class SimulationParams:
     season: Season = Season.GROWING
     light: LightName = LightName.AFTERNOON
     camera_latency_ms: int = 60
+    picture_width_px: int = 640
+    picture_height_px: int = 360
     detector: DetectorKind = DetectorKind.PIXELS
 
     def world(self, site: SiteMap, vehicle: VehicleParams, start_ns: int) -> World:
         """The world of this simulation."""
         orchard = OrchardParams(seed=self.world_seed, season=self.season)
         return World(site, vehicle, WorldParams(seed=self.world_seed, orchard=orchard), start_ns)
+
+    def mounts(self) -> dict[CameraName, PinholeCamera]:
+        """Front and rear camera."""
+        return robot_cameras(width_px=self.picture_width_px, height_px=self.picture_height_px)
 
     def light_params(self) -> LightParams:
         """The light of this simulation."""
