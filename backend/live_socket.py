@@ -54,7 +54,8 @@ async def _send(websocket: WebSocket, outbox: Outbox) -> int | None:
     while True:
         for message in await outbox.take():
             try:
-                await asyncio.wait_for(_send_one(websocket, message), SLOWEST_SEND_S)
+                async with asyncio.timeout(SLOWEST_SEND_S):  # Python 3.11's wait_for can swallow the cancellation
+                    await _send_one(websocket, message)
             except TimeoutError:
                 return TRY_LATER
             except (WebSocketDisconnect, RuntimeError, OSError):
@@ -102,6 +103,7 @@ async def _watch(login: Login, logins: LoginBook) -> int | None:
 
 async def _close(websocket: WebSocket, code: int) -> None:
     try:
-        await asyncio.wait_for(websocket.close(code), SLOWEST_SEND_S)
+        async with asyncio.timeout(SLOWEST_SEND_S):
+            await websocket.close(code)
     except (TimeoutError, RuntimeError, OSError, WebSocketDisconnect):
         return
