@@ -34,6 +34,9 @@ class Bench:
         self.seq = 0
         self.v = self.omega = 0.0
 
+    def state(self) -> GuardState:
+        return self.guard.state
+
     def send(self, frames: Frames) -> Frames:
         for frame in frames:
             self.sent.append((self.now_ns, frame))
