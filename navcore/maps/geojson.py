@@ -5,18 +5,11 @@ from __future__ import annotations
 from navcore.maps.mission_geojson import mission_from_geojson, mission_to_geojson
 from navcore.maps.site_export import site_to_geojson
 from navcore.maps.site_import import ImportedSite, import_site
-from navcore.maps.site_map import SiteMap
 
 __all__ = [
     "ImportedSite",
     "import_site",
     "mission_from_geojson",
     "mission_to_geojson",
-    "site_from_geojson",
     "site_to_geojson",
 ]
-
-
-def site_from_geojson(document: object) -> SiteMap:
-    """The site alone; `import_site` also tells what was noticed. Raises SiteError with every problem."""
-    return import_site(document).site

@@ -81,6 +81,14 @@ def test_geojson_out_and_in_gives_the_same_farm(client: TestClient, stored: dict
     assert again["start"] == pytest.approx(row["start"], abs=1e-3)  # m
 
 
+def test_what_was_noticed_in_an_imported_farm_is_told(client: TestClient, stored: dict[str, Any]) -> None:
+    exported = client.get(f"/api/sites/{stored['id']}/geojson").json()
+    assert client.post("/api/sites/import", json=exported).json()["notes"] == []
+    exported["features"][0]["properties"]["variety"] = "Pinot Noir"
+    (note,) = client.post("/api/sites/import", json=exported).json()["notes"]
+    assert "variety" in note
+
+
 def test_a_mission_goes_out_and_in_as_geojson(client: TestClient, stored: dict[str, Any], mission: Mission) -> None:
     made = client.post(f"/api/sites/{stored['id']}/missions", json={"mission": as_json(mission)}).json()
     exported = client.get(f"/api/missions/{made['id']}/geojson").json()

@@ -21,7 +21,6 @@ from navcore.maps.geojson import (
     import_site,
     mission_from_geojson,
     mission_to_geojson,
-    site_from_geojson,
     site_to_geojson,
 )
 from navcore.maps.mission import Mission, RowExit, RowVisit, Waypoint
@@ -72,7 +71,7 @@ def assert_same(a: Any, b: Any, path: str = "") -> None:
 
 def test_a_site_comes_back_to_within_a_tenth_of_a_millimetre() -> None:
     text = json.dumps(site_to_geojson(SITE), allow_nan=False)
-    assert_same(SITE, site_from_geojson(json.loads(text)))
+    assert_same(SITE, import_site(json.loads(text)).site)
 
 
 def test_a_mission_comes_back() -> None:
@@ -93,7 +92,7 @@ def test_exported_positions_are_wgs_84_with_longitude_first_and_rings_are_closed
 @given(st.floats(-3000.0, 3000.0), st.floats(-3000.0, 3000.0))
 def test_every_place_of_a_large_farm_survives(x: float, y: float) -> None:
     site = SiteMap(name="s", datum=SITE.datum, warehouse=Warehouse(x=x, y=y, yaw=0.0))
-    back = site_from_geojson(site_to_geojson(site)).warehouse
+    back = import_site(site_to_geojson(site)).site.warehouse
     assert back is not None
     assert math.dist((back.x, back.y), (x, y)) < 1e-3
 
@@ -102,7 +101,7 @@ def broken(change: Callable[[dict[str, Any]], None]) -> str:
     document = copy.deepcopy(site_to_geojson(SITE))
     change(document)
     with pytest.raises(SiteError) as caught:
-        site_from_geojson(document)
+        import_site(document)
     assert caught.value.reasons
     return str(caught.value)
 
@@ -177,7 +176,7 @@ def test_unknown_properties_are_named_not_refused() -> None:
 def test_without_our_datum_the_middle_of_the_positions_is_the_origin() -> None:
     document = site_to_geojson(SITE)
     del document["rowpilot"]
-    site = site_from_geojson(document)
+    site = import_site(document).site
     frames = EnuFrame(site.datum), EnuFrame(SITE.datum)
     assert site.rows[0].id == "R1"
     places = [f.to_geodetic(*row.start, 0.0) for f, row in zip(frames, (site.rows[0], SITE.rows[0]), strict=True)]
@@ -230,4 +229,4 @@ def test_files_of_other_programs_are_refused_with_a_sentence(shared_data: Path) 
     assert paths
     for path in paths:
         with pytest.raises(SiteError, match="cannot be imported"):
-            site_from_geojson(json.loads(path.read_text()))
+            import_site(json.loads(path.read_text()))
