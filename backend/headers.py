@@ -13,7 +13,7 @@ PAGE_POLICY = (
 SCENE_POLICY = (
     "default-src 'self'; script-src 'self' 'unsafe-inline' 'wasm-unsafe-eval' blob:; worker-src blob:; "
     "style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; font-src 'self' data:; "
-    "connect-src 'self' data: blob:; frame-ancestors 'self'; object-src 'none'; base-uri 'none'"
+    "connect-src 'self' data:; frame-ancestors 'self'; object-src 'none'; base-uri 'none'"
 )
 ALWAYS = {
     "X-Content-Type-Options": "nosniff",

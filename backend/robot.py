@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from backend import scene_proxy
 from backend.errors import ConflictError
 from backend.live import Hub
 from backend.schemas import Robot
@@ -43,7 +44,7 @@ class RobotView:
             site_id=supervisor.site_id if supervisor else None,
             state=status.state if status else None,
             run_id=status.run_id if status else None,
-            scene=self._settings.scene_port is not None,
+            scene=scene_proxy.answers(self._settings.scene_port),
             operators=self._hub.operators(self._settings.operator_timeout_s),
         )
 

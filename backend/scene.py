@@ -57,6 +57,7 @@ def main() -> None:
     server = viser.ViserServer(host=LOOPBACK, port=arguments.port, label="Rowpilot", verbose=False)
     server.gui.configure_theme(show_logo=False, show_share_button=False)
     server.gui.main_panel.minimize()
+    server.scene.configure_default_lights(cast_shadow=False)  # dear to draw where there is no graphics card
     view = SceneView(server, PROFILES[arguments.vehicle])
     with Subscriber(endpoints, SHOWN) as subscriber:
         while not ended:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import asyncio
+import socket
 from collections.abc import AsyncIterator
 from contextlib import suppress
 from http.client import HTTPConnection, HTTPException, HTTPResponse
 
 from starlette.concurrency import run_in_threadpool
-from starlette.responses import StreamingResponse
+from starlette.responses import HTMLResponse, Response, StreamingResponse
 from starlette.websockets import WebSocket, WebSocketDisconnect
 from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed, InvalidHandshake
@@ -21,23 +22,49 @@ from navcore.errors import TransportError
 
 LOOPBACK = "127.0.0.1"
 TIMEOUT_S = 5.0
+ACCEPT_S = 0.2
 CHUNK = 256 * 1024
 PASSED_ON = ("content-type", "content-encoding", "content-length", "etag", "last-modified", "cache-control")
+PAGE_START = b"<head>"
+MANNERS = b'<script src="/scene-manners.js"></script>'  # frontend/public; must run before the viewer's own scripts
 NO_SCENE = "The 3D view is not running. The robot does not need it: map and camera go on."
 TRY_LATER = 1013
 LOGIN_CHECK_S = 0.5
 
 
-async def fetch(port: int | None, path: str, accept_encoding: str) -> StreamingResponse:
-    """A file of the viewer, its content encoding kept. Raises NotFoundError without a 3D view."""
+def answers(port: int | None) -> bool:
+    """Whether a viewer listens there now; it comes up a little later than the station, and may be started again."""
     if port is None:
-        raise NotFoundError(NO_SCENE)
+        return False
+    with suppress(OSError), socket.create_connection((LOOPBACK, port), ACCEPT_S):
+        return True
+    return False
+
+
+async def fetch_page(port: int | None) -> Response:
+    """The viewer's page, with our manners put in front of its scripts. Raises NotFoundError without a 3D view."""
     try:
-        connection, answer = await run_in_threadpool(_ask, port, path, accept_encoding)
+        connection, answer = await run_in_threadpool(_ask, _known(port), "", "identity")
+        page = b"".join([chunk async for chunk in _chunks(connection, answer)])
+    except (OSError, HTTPException) as error:
+        raise TransportError(NO_SCENE) from error
+    return HTMLResponse(page.replace(PAGE_START, PAGE_START + MANNERS, 1), answer.status)
+
+
+async def fetch(port: int | None, path: str, accept_encoding: str) -> StreamingResponse:
+    """Another file of the viewer, its content encoding kept. Raises NotFoundError without a 3D view."""
+    try:
+        connection, answer = await run_in_threadpool(_ask, _known(port), path, accept_encoding)
     except (OSError, HTTPException) as error:
         raise TransportError(NO_SCENE) from error
     headers = {name: value for name in PASSED_ON if (value := answer.headers.get(name))}
     return StreamingResponse(_chunks(connection, answer), answer.status, headers)
+
+
+def _known(port: int | None) -> int:
+    if port is None:
+        raise NotFoundError(NO_SCENE)
+    return port
 
 
 def _ask(port: int, path: str, accept_encoding: str) -> tuple[HTTPConnection, HTTPResponse]:

@@ -14,7 +14,9 @@ router = APIRouter(tags=["scene"], include_in_schema=False)
 
 @router.get("/scene/{path:path}")
 async def scene_files(station: TheStation, login: TheLogin, request: Request, path: str) -> Response:
-    """The viewer's files, streamed from the loopback server."""
+    """The viewer's page and files, from the loopback server."""
+    if not path:
+        return await scene_proxy.fetch_page(station.settings.scene_port)
     encodings = request.headers.get("accept-encoding", "identity")
     return await scene_proxy.fetch(station.settings.scene_port, quote(path), encodings)
 

@@ -56,7 +56,9 @@ def test_the_viewer_s_page_comes_through_with_its_own_policy(client: TestClient)
     assert answer.status_code == 200, answer.text[:300]
     assert answer.headers["content-type"].startswith("text/html")
     assert "<title>Viser</title>" in answer.text
+    assert answer.text.index("scene-manners.js") < answer.text.index("<script data-p")
     assert "'wasm-unsafe-eval'" in answer.headers["content-security-policy"]
+    assert "'unsafe-eval'" not in answer.headers["content-security-policy"]
     assert "frame-ancestors 'self'" in answer.headers["content-security-policy"]
     assert "wasm-unsafe-eval" not in client.get("/drive").headers["content-security-policy"]
     assert client.get("/scene/no-such-file.js").status_code == 404
@@ -89,7 +91,9 @@ def test_the_view_ends_with_the_login(client: TestClient) -> None:
 
 
 def test_without_a_viewer_the_page_says_so(client: TestClient, viewer: viser.ViserServer) -> None:
+    assert client.get("/api/robot").json()["scene"] is True
     viewer.stop()
+    assert client.get("/api/robot").json()["scene"] is False
     answer = client.get("/scene/")
     assert answer.status_code == 503
     assert "3D view is not running" in answer.json()["message"]

@@ -29,9 +29,8 @@ class Witness:
         page.on("pageerror", lambda error: self.errors.append(str(error)))
 
     def violations(self) -> list[str]:
-        """Of the content security policy, in the page that is open now."""
-        found: list[str] = self._page.evaluate("window.policyViolations")
-        return found
+        """Of the content security policy, in the page that is open now and in the frames within it."""
+        return [told for frame in self._page.frames for told in frame.evaluate("window.policyViolations ?? []")]
 
     def assert_nothing_happened(self) -> None:
         """Call it before leaving a page and at the end."""

@@ -1319,7 +1319,7 @@ export interface components {
          *         simulated: the robot is the simulator.
          *         site_id: the farm that the robot is set up for, None before the first or without a supervisor.
          *         state, run_id: from the navigator's newest status; None before the first.
-         *         scene: there is a 3D view at `/scene/`.
+         *         scene: the 3D view answers at `/scene/` now.
          *         operators: browsers with a live heartbeat.
          */
         Robot: {
