@@ -131,7 +131,7 @@ class _Where:
         at = np.clip(at, 0, len(marks) - 1)
         self.on_gnss: Flags = np.array([marks[i].mode in _GNSS_MODES for i in at])
         self._segment = np.clip([marks[i].segment for i in at], 0, len(record.plan.segments) - 1)
-        self.from_path = path_deviation(record.plan, self._points)
+        self.from_path = path_deviation(record.plan, self._points, self._segment)
         self._rows = {row.id: row for row in record.rows}
         self._frames = {row.id: row_frame(row, self._points) for row in record.rows}
         self._planned = [record.plan.segments[i].row_id for i in self._segment]

@@ -22,10 +22,10 @@ Ints = NDArray[np.int64]
 
 def outside_band(record: RunRecord, points: Floats, segments: Ints) -> Floats:
     """Distance (N,) of true positions (N, 2) beyond all lines that may be followed at those segments (N,), m."""
-    as_drawn = path_deviation(record.plan, points)
+    as_drawn = path_deviation(record.plan, points, segments)
     drawn = {row.id: row for row in drawn_rows(record.plan)}
     laid = {
-        row.id: path_deviation(record.plan, onto_drawn(row, drawn[row.id], points))
+        row.id: path_deviation(record.plan, onto_drawn(row, drawn[row.id], points), segments)
         for row in record.rows if row.id in drawn
     }  # fmt: skip
     lines = np.tile(as_drawn, (3, 1))

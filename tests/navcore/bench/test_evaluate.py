@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from navcore.bench.evaluate import evaluate
+from navcore.bench.evaluate_lines import path_deviation
 from navcore.bench.evaluate_record import DecisionMark, RunRecord, ViewMark
 from navcore.errors import LogError
 from navcore.messages import (
@@ -192,6 +193,16 @@ def test_a_part_of_the_path_that_passes_nearby_does_not_flatter(plan: MissionPla
     result = evaluate(replace(record, decisions=marks))
     assert result.gnss_whole is not None
     assert result.gnss_whole.mean == pytest.approx(0.8, abs=0.01)
+
+
+def test_driving_past_the_point_of_turning_back_is_no_error_to_the_side(plan: MissionPlan) -> None:
+    out = segment(SegmentKind.ROAD, 0.0, 20.0)
+    back = replace(out, points=tuple((20.0 - x / 2, x) for x in np.arange(0.0, 10.0, 0.1).tolist()), reverse=True,
+                   speeds=(SPEED,) * 100)  # fmt: skip
+    turned = replace(plan, segments=(out, back))
+    xs = np.arange(0.0, 20.35, 0.05)
+    deviation = path_deviation(turned, np.column_stack((xs, 0.02 * np.ones(len(xs)))), np.zeros(len(xs), dtype=int))
+    assert deviation == pytest.approx(0.02, abs=1e-6)
 
 
 def test_a_run_that_never_drove_says_so(plan: MissionPlan) -> None:
