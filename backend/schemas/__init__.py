@@ -1,0 +1,60 @@
+"""What crosses HTTP, beside navcore's own vocabulary, which is used as it is.
+
+Numbers in requests are finite: pydantic hands `allow_inf_nan=False` down into navcore's plain dataclasses.
+"""
+
+from backend.schemas.base import ErrorDocument, Id, Received, Sent
+from backend.schemas.drive import ActionResult, Nonce, OperatorAction, RunStart, StopResult
+from backend.schemas.imports import Job, JobStarted, JobState
+from backend.schemas.live import Heartbeat, LiveTopics
+from backend.schemas.missions import (
+    MissionCreate,
+    MissionDocument,
+    MissionEdit,
+    Preview,
+    PreviewRequest,
+    RowMissionRequest,
+)
+from backend.schemas.robot import Robot, RobotSite
+from backend.schemas.runs import LogFormat, RunDetail, RunDocument, RunEventDocument, RunOutcome, RunTrack
+from backend.schemas.session import Invitation, SessionDocument
+from backend.schemas.sites import ImportedSite, OrthophotoInfo, SiteCreate, SiteDocument, SiteEdit, SiteSummary
+
+__all__ = [
+    "ActionResult",
+    "ErrorDocument",
+    "Heartbeat",
+    "Id",
+    "ImportedSite",
+    "Invitation",
+    "Job",
+    "JobStarted",
+    "JobState",
+    "LiveTopics",
+    "LogFormat",
+    "MissionCreate",
+    "MissionDocument",
+    "MissionEdit",
+    "Nonce",
+    "OperatorAction",
+    "OrthophotoInfo",
+    "Preview",
+    "PreviewRequest",
+    "Received",
+    "Robot",
+    "RobotSite",
+    "RowMissionRequest",
+    "RunDetail",
+    "RunDocument",
+    "RunEventDocument",
+    "RunOutcome",
+    "RunStart",
+    "RunTrack",
+    "Sent",
+    "SessionDocument",
+    "SiteCreate",
+    "SiteDocument",
+    "SiteEdit",
+    "SiteSummary",
+    "StopResult",
+]
