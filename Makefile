@@ -5,12 +5,12 @@ BIN := $(VENV)/bin
 STAMP := .make
 export PATH := $(CURDIR)/$(VENV)/bin:$(PATH)
 
-.PHONY: run test check format setup frontend browser clean
+.PHONY: run test check format setup compiled frontend browser clean
 
-run: setup frontend
+run: setup frontend compiled
 	$(BIN)/rowpilot run
 
-test: check browser
+test: check browser compiled
 	$(BIN)/pytest -n 2 --dist loadfile
 
 check: setup frontend
@@ -25,6 +25,7 @@ format: setup
 	$(BIN)/ruff format .
 
 setup: $(STAMP)/venv
+compiled: $(STAMP)/compiled
 frontend: $(STAMP)/frontend
 browser: $(STAMP)/browser
 
@@ -33,6 +34,11 @@ $(STAMP)/venv: pyproject.toml
 	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
 	$(BIN)/python -m pip install --quiet --upgrade pip
 	$(BIN)/python -m pip install --quiet --editable '.[dev]'
+	@touch $@
+
+# The simulated camera's inner loops, so that no first picture waits for a compiler.
+$(STAMP)/compiled: $(STAMP)/venv $(wildcard navcore/sim/render/*.py)
+	$(BIN)/python -m navcore.sim.camera_warm_up
 	@touch $@
 
 # A machine without a recent Node gets it from PyPI, into the virtual environment.

@@ -1,4 +1,4 @@
-"""Compile the renderer's inner loops ahead of time, so that the first frame of a drive is not late."""
+"""`python -m navcore.sim.camera_warm_up`: compile the renderer's inner loops, so that no drive waits for them."""
 
 from __future__ import annotations
 
@@ -20,3 +20,7 @@ def warm_up() -> None:
         RenderParams(labels=LabelParams()),
     )  # fmt: skip
     renderer.render(SimTruth(stamp_ns=0, x=0.0, y=0.0, yaw=0.0, roll=0.0, pitch=0.0, v=0.0, omega=0.0), 0)
+
+
+if __name__ == "__main__":
+    warm_up()
