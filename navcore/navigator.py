@@ -9,7 +9,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 
-from navcore.chassis.protocol import GuardRequest, GuardState, MotionCommand
 from navcore.control.progress import ProgressCheck, ProgressParams
 from navcore.control.speed_regulation import SpeedLimit
 from navcore.errors import InputError
@@ -32,10 +31,11 @@ from navcore.messages import (
 from navcore.mission.driver import Driver, DriverParams, Driving
 from navcore.mission.events import Event, EventParams, active_events, effects_of
 from navcore.mission.evidence import NS, GnssEvidence, GnssEvidenceParams
+from navcore.mission.guard_orders import GuardOrders
 from navcore.mission.pilot import Pilot, PilotParams, Position
 from navcore.mission.senses import Senses
 from navcore.mission.situation import Situation, event_facts
-from navcore.mission.state_machine import MOVING, UNDER_WAY, Circumstances, Effect, next_state, refusal
+from navcore.mission.state_machine import UNDER_WAY, Circumstances, Effect, next_state, refusal
 from navcore.mission.status import ActiveEvents, nav_status
 from navcore.vehicle import PAPER_A, VehicleParams
 
@@ -80,7 +80,7 @@ class Navigator:
         self.heard_ns = 0
         self._events = ActiveEvents()
         self._last_ns: int | None = None
-        self._seq = 0
+        self._orders = GuardOrders(params.command_ms)
 
     def step(self, now_ns: int, inputs: NavInputs) -> Decision:
         """One tick: all that arrived since the last one in, one decision out."""
@@ -225,31 +225,10 @@ class Navigator:
     ) -> Decision:  # fmt: skip
         return Decision(
             stamp_ns=now_ns,
-            command=self._command(now_ns),
+            command=self._orders.command(now_ns, self.state, self.driving, self.senses),
             status=nav_status(self._situation(), now_ns, self._events),
             switch=switch,
             camera=self.pilot.camera_request(at) if self.pilot and self.state in UNDER_WAY else None,
-            guard_request=self._guard_request(request),
+            guard_request=self._orders.request(self.state, request, self.senses),
             replies=replies,
         )
-
-    def _command(self, now_ns: int) -> MotionCommand | None:
-        """Zero unless driving; nothing at all while the guard does not listen."""
-        if not self.senses.armed:
-            return None
-        drives = self.state is RunState.DRIVING
-        v, omega = (self.driving.v, self.driving.omega) if drives else (0.0, 0.0)
-        evidence_ns = self.driving.deadline_ns if drives else now_ns + self.params.command_ms * 1_000_000
-        deadline_ns = min(evidence_ns, now_ns + self.params.command_ms * 1_000_000)
-        self._seq += 1
-        return MotionCommand(v=v, omega=omega, seq=self._seq, stamp_ns=now_ns, deadline_ns=deadline_ns)
-
-    def _guard_request(self, request: RequestKind | None) -> GuardRequest | None:
-        chassis = self.senses.chassis
-        latched = chassis is not None and chassis.guard is GuardState.LATCHED
-        if latched and request in (RequestKind.START, RequestKind.RESUME, RequestKind.ACKNOWLEDGE):
-            return GuardRequest.ACKNOWLEDGE
-        if self.state is RunState.STARTING and not self.senses.armed:
-            return GuardRequest.ARM
-        resting = self.state not in MOVING and self.state is not RunState.PAUSED
-        return GuardRequest.DISARM if resting and self.senses.armed and self.senses.standing else None
