@@ -2,12 +2,13 @@ import { type ReactNode, createContext, useCallback, useContext, useEffect, useM
 
 import type { TopicName, Topics } from "./message";
 import { RunHistory } from "./history";
-import { LiveSocket, type LinkState, liveUrl } from "./socket";
+import { LiveLink } from "./link";
+import { type LinkState, liveUrl } from "./socket";
 import { LiveStore } from "./store";
 
 interface Live {
   store: LiveStore;
-  socket: LiveSocket;
+  link: LiveLink;
   history: RunHistory;
 }
 
@@ -16,8 +17,8 @@ const LiveContext = createContext<Live | null>(null);
 export function LiveProvider({ children }: { children: ReactNode }) {
   const live = useMemo(newLive, []);
   useEffect(() => {
-    live.socket.open();
-    return () => live.socket.close();
+    live.link.open();
+    return () => live.link.close();
   }, [live]);
   useEffect(() => remember(live), [live]);
   return <LiveContext.Provider value={live}>{children}</LiveContext.Provider>;
@@ -25,7 +26,7 @@ export function LiveProvider({ children }: { children: ReactNode }) {
 
 function newLive(): Live {
   const store = new LiveStore();
-  return { store, socket: new LiveSocket(store, liveUrl(window.location)), history: new RunHistory() };
+  return { store, link: new LiveLink(store, liveUrl(window.location)), history: new RunHistory() };
 }
 
 function remember({ store, history }: Live): () => void {
@@ -85,9 +86,9 @@ export function useFresh(topic: TopicName): boolean {
 }
 
 export function useLink(): LinkState {
-  const { socket } = useLive();
+  const { link } = useLive();
   return useSyncExternalStore(
-    useCallback((changed: () => void) => socket.subscribe(changed), [socket]),
-    () => socket.state,
+    useCallback((changed: () => void) => link.subscribe(changed), [link]),
+    () => link.state,
   );
 }

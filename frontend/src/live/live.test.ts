@@ -1,7 +1,6 @@
 import { describe, expect, test } from "vitest";
 
 import { readMessage } from "./message";
-import { retryDelay } from "./socket";
 import { LiveStore } from "./store";
 
 function status(stamp_ns: number) {
@@ -62,8 +61,4 @@ describe("messages of the feed", () => {
     new DataView(bytes.buffer).setUint32(0, 5000, true);
     expect(readMessage(bytes.buffer)).toBeNull();
   });
-});
-
-test("the page waits longer after each lost connection, but never more than four seconds", () => {
-  expect([0, 1, 2, 10].map(retryDelay)).toEqual([250, 500, 1000, 4000]);
 });
