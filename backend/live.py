@@ -8,8 +8,9 @@ from __future__ import annotations
 import asyncio
 import struct
 import time
-from threading import Event, Lock, Thread
+from threading import Lock
 
+from backend.worker import Worker
 from navcore.topics import TOPICS
 from navcore.transport.endpoints import Endpoints
 from navcore.transport.pubsub import Received, Subscriber
@@ -42,31 +43,24 @@ class Outbox:
         return messages
 
 
-class Hub:
-    """Holds the newest message of each shown topic. `start` and `close` once each."""
+class Hub(Worker):
+    """Holds the newest message of each shown topic. `open` and `close` once each."""
 
     def __init__(self, endpoints: Endpoints) -> None:
+        super().__init__("live")
         self._endpoints = endpoints
         self._newest: dict[str, Received] = {}
         self._arrived_s: dict[str, float] = {}
         self._lock = Lock()
         self._clients: set[Outbox] = set()
         self._loop: asyncio.AbstractEventLoop | None = None
-        self._closing = Event()
-        self._thread = Thread(target=self._read, name="live", daemon=True)
 
-    def start(self, loop: asyncio.AbstractEventLoop) -> None:
+    def open(self, loop: asyncio.AbstractEventLoop) -> None:
         """Begin to listen; browsers are served from `loop`."""
         self._loop = loop
-        self._thread.start()
+        self.start()
 
-    def close(self) -> None:
-        """Stop listening."""
-        self._closing.set()
-        if self._thread.is_alive():
-            self._thread.join()
-
-    def _read(self) -> None:
+    def _work(self) -> None:
         shown = [topic.name for topic in TOPICS.values() if topic.shown]
         with Subscriber(self._endpoints, shown) as subscriber:
             while not self._closing.is_set():

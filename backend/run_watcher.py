@@ -7,12 +7,12 @@ import time
 from collections.abc import Callable
 from contextlib import suppress
 from datetime import UTC, datetime
-from threading import Event, Thread
 
 from sqlalchemy.exc import SQLAlchemyError
 
 from backend.run_figures import RunFigures, resumed
 from backend.runs import RunStore
+from backend.worker import Worker
 from navcore.errors import InputError
 from navcore.messages import ModeSwitch, NavStatus, RunState
 from navcore.topics import NAV_PLAN, NAV_STATUS, NAV_SWITCH
@@ -28,8 +28,8 @@ LOST = "The station has not heard of the robot since. The log of the run tells w
 OVER = frozenset({RunState.IDLE, RunState.FINISHED})
 
 
-class RunWatcher:
-    """A thread with a subscription of its own, so that a slow disk delays nobody."""
+class RunWatcher(Worker):
+    """A thread with a subscription of its own: a slow disk delays nobody. What was seen is written at the end."""
 
     def __init__(
         self,
@@ -39,6 +39,7 @@ class RunWatcher:
         on_end: Callable[[str], None],
     ) -> None:
         """`show_plan` gets the stored plan of a run found under way; `on_end` the id of a run that has ended."""
+        super().__init__("run-watcher")
         self._endpoints = endpoints
         self._runs = runs
         self._show_plan = show_plan
@@ -46,20 +47,8 @@ class RunWatcher:
         self._figures: RunFigures | None = None
         self._written_s = 0.0
         self._heard_s = time.monotonic()
-        self._closing = Event()
-        self._thread = Thread(target=self._run, name="run-watcher", daemon=True)
 
-    def start(self) -> None:
-        """Begin to watch."""
-        self._thread.start()
-
-    def close(self) -> None:
-        """Stop watching; what was seen is written."""
-        self._closing.set()
-        if self._thread.is_alive():
-            self._thread.join()
-
-    def _run(self) -> None:
+    def _work(self) -> None:
         with Subscriber(self._endpoints, (NAV_STATUS.name, NAV_SWITCH.name)) as subscriber:
             while not self._closing.is_set():
                 received = subscriber.receive(POLL_MS)

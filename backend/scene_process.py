@@ -4,34 +4,27 @@ from __future__ import annotations
 
 import subprocess
 import sys
-from threading import Event, Thread
 
 from backend.settings import Settings
+from backend.worker import Worker
 
 PAUSE_S = 3.0
 PATIENCE_S = 3.0
 
 
-class SceneProcess:
+class SceneProcess(Worker):
     """A thread that keeps one child process."""
 
     def __init__(self, settings: Settings) -> None:
+        super().__init__("scene")
         self._settings = settings
-        self._closing = Event()
-        self._thread = Thread(target=self._keep, name="scene", daemon=True)
 
     def start(self) -> None:
         """Begin, if the settings name a port."""
         if self._settings.scene_port is not None:
-            self._thread.start()
+            super().start()
 
-    def close(self) -> None:
-        """End the child."""
-        self._closing.set()
-        if self._thread.is_alive():
-            self._thread.join()
-
-    def _keep(self) -> None:
+    def _work(self) -> None:
         while not self._closing.is_set():
             # Its banner on stdout names an address that only the station may use.
             with subprocess.Popen(

@@ -62,7 +62,7 @@ class Station:
 
     def start(self, loop: asyncio.AbstractEventLoop) -> None:
         """Begin to listen to the robot. Nothing here makes it move."""
-        self.hub.start(loop)
+        self.hub.open(loop)
         self.watcher.start()
         self.heartbeat.start()
         self.scene.start()

@@ -63,7 +63,7 @@ async def feed(bus_dir: Path, browsers: list[PlayedBrowser], told: Callable[[], 
     endpoints = Endpoints(bus_dir)
     endpoints.prepare()
     hub = Hub(endpoints)
-    hub.start(asyncio.get_running_loop())
+    hub.open(asyncio.get_running_loop())
     logins = cast(LoginBook, SimpleNamespace(alive=lambda _: True))
     served = [asyncio.create_task(live_socket.serve(cast(WebSocket, b), hub, logins)) for b in browsers]
     try:

@@ -5,11 +5,6 @@ from __future__ import annotations
 import errno
 import json
 import os
-import signal
-import subprocess
-import sys
-import tempfile
-import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -17,20 +12,16 @@ import pytest
 from mcap.reader import make_reader
 
 from navcore.errors import LogError
-from navcore.messages import NavStatus, SimTruth
+from navcore.messages import NavStatus
 from navcore.recording.reader import read_log, read_metadata, read_typed, wall_offset_ns
 from navcore.recording.recorder import Recorder
-from navcore.recording.requests import RecorderReply, RecorderRequest, RecorderRequestKind
-from navcore.topics import CAMERA_VIEW, NAV_STATUS, SIM_TRUTH, TOPICS
-from navcore.transport.endpoints import Endpoints
-from navcore.transport.pubsub import Publisher
-from navcore.transport.request import Requester
+from navcore.recording.requests import RecorderRequest, RecorderRequestKind
+from navcore.topics import CAMERA_VIEW, NAV_STATUS, TOPICS
 
 if TYPE_CHECKING:
     from tests.navcore.recording.conftest import Drive
 
 WALL_NS = 1_790_000_000_000_000_000
-DEADLINE_S = 20.0
 
 
 def start(path: Path, run_id: str = "run1") -> RecorderRequest:
@@ -212,48 +203,3 @@ def test_messages_without_a_log_are_nobodys(drive: Drive) -> None:
     recorder.idle(0)
     recorder.close(0)
     assert not recorder.status(0).recording
-
-
-def test_a_killed_recorder_process_leaves_a_readable_log() -> None:
-    with tempfile.TemporaryDirectory(prefix="rp") as directory:
-        endpoints = Endpoints(Path(directory))
-        endpoints.prepare()
-        path = Path(directory) / "run.mcap"
-        process = subprocess.Popen(
-            [sys.executable, "-m", "navcore.recording.recorder_process", "--bus", str(endpoints.directory)]
-        )
-        with Publisher(endpoints, "world") as publisher, Requester(endpoints.recorder_requests, "recorder") as asker:
-            assert asker.ask(start(path), RecorderReply, 20_000).accepted
-            publish_until_on_disk(publisher, path)
-            process.send_signal(signal.SIGKILL)
-            process.wait()
-        truths = list(read_typed(path, SIM_TRUTH.name, SimTruth))
-    assert [truth.stamp_ns for truth in truths] == list(range(truths[0].stamp_ns, truths[0].stamp_ns + len(truths)))
-
-
-def publish_until_on_disk(publisher: Publisher, path: Path) -> None:
-    deadline = time.monotonic() + DEADLINE_S
-    number = 0
-    while time.monotonic() < deadline:
-        truth = SimTruth(stamp_ns=number, x=0.0, y=0.0, yaw=0.0, roll=0.0, pitch=0.0, v=0.0, omega=0.0)
-        publisher.publish(SIM_TRUTH.name, truth)
-        number += 1
-        time.sleep(0.005)
-        if number % 50 == 0 and any(read_log(path, (SIM_TRUTH.name,))):
-            return
-    raise AssertionError("nothing reached the disk")
-
-
-def test_a_recorder_process_that_is_asked_to_end_finishes_its_log() -> None:
-    with tempfile.TemporaryDirectory(prefix="rp") as directory:
-        endpoints = Endpoints(Path(directory))
-        endpoints.prepare()
-        path = Path(directory) / "run.mcap"
-        process = subprocess.Popen(
-            [sys.executable, "-m", "navcore.recording.recorder_process", "--bus", str(endpoints.directory)]
-        )
-        with Requester(endpoints.recorder_requests, "recorder") as asker:
-            assert asker.ask(start(path), RecorderReply, 20_000).accepted
-        process.terminate()
-        assert process.wait(DEADLINE_S) == 0
-        assert path.read_bytes().endswith(b"\x89MCAP0\r\n")
