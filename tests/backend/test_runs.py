@@ -119,41 +119,57 @@ def test_pause_resume_and_acknowledge_reach_the_navigator(
     assert client.post("/api/runs/current/dance").status_code == 422
 
 
-def test_a_run_is_summed_up_logged_and_downloaded(
-    client: TestClient, robot: PlayedRobot, ready: dict[str, Any]
-) -> None:
+@pytest.fixture
+def driven(client: TestClient, robot: PlayedRobot, ready: dict[str, Any]) -> dict[str, Any]:
+    """A finished run, some way long, with pictures."""
     robot.camera = True
-    run_id = start(client, ready).json()["id"]
-    address = f"/api/runs/{run_id}"
+    address = f"/api/runs/{start(client, ready).json()['id']}"
     assert until(lambda: client.get(address).json()["distance_m"] > 0.5)
     robot.state = RunState.FINISHED
     assert until(lambda: client.get(address).json()["outcome"] == "finished")
-    run = client.get(address).json()
-    assert run["mean_lateral_error"] == pytest.approx(0.03, abs=1e-6)  # m
-    assert run["ended"] is not None
-    assert [e["text"] for e in run["events"] if e["kind"] == "state"][-1] == "finished"
-    assert run["log_bytes"] > 0
+    run: dict[str, Any] = client.get(address).json()
+    return run
+
+
+def test_a_run_is_summed_up(driven: dict[str, Any]) -> None:
+    assert driven["mean_lateral_error"] == pytest.approx(0.03, abs=1e-6)  # m
+    assert driven["ended"] is not None
+    assert [e["text"] for e in driven["events"] if e["kind"] == "state"][-1] == "finished"
+    assert driven["log_bytes"] > 0
+
+
+def test_a_run_has_a_track_and_the_pictures_along_it(client: TestClient, driven: dict[str, Any]) -> None:
+    address = f"/api/runs/{driven['id']}"
     track = client.get(f"{address}/track")
     assert track.status_code == 200, track.text
     columns = track.json()
     assert len({len(columns[name]) for name in ("t_s", "x", "mode", "lateral_error")}) == 1
     assert columns["x"][-1] > 0.5
-    for form, beginning in (("mcap", b"\x89MCAP0\r\n"), ("csv", b"t_s,"), ("geojson", b"{"), ("gpx", b"<?xml")):
-        answer = client.get(f"{address}/download", params={"format": form})
-        assert answer.status_code == 200, answer.text
-        assert answer.content.startswith(beginning)
-        assert f"run-{run_id}.{form}" in answer.headers["content-disposition"]
     picture = client.get(f"{address}/camera", params={"t_s": columns["camera_t_s"][3] + 0.01})
     assert (picture.status_code, picture.content) == (200, JPEG)
     assert json.loads(picture.headers["x-camera-view"])["row"]["reason"] == "too dark"
     assert client.get(f"{address}/camera", params={"t_s": 3600.0}).status_code == 404
-    part = client.get(f"{address}/download", headers={"Range": "bytes=0-7"})
+
+
+def test_a_run_is_downloaded_in_four_forms_and_no_other(client: TestClient, driven: dict[str, Any]) -> None:
+    address = f"/api/runs/{driven['id']}/download"
+    for form, beginning in (("mcap", b"\x89MCAP0\r\n"), ("csv", b"t_s,"), ("geojson", b"{"), ("gpx", b"<?xml")):
+        answer = client.get(address, params={"format": form})
+        assert answer.status_code == 200, answer.text
+        assert answer.content.startswith(beginning)
+        assert f"run-{driven['id']}.{form}" in answer.headers["content-disposition"]
+    assert client.get(address, params={"format": "exe"}).status_code == 422
+
+
+def test_a_part_of_a_log_is_given_and_thousands_of_parts_are_no_bomb(
+    client: TestClient, driven: dict[str, Any]
+) -> None:
+    address = f"/api/runs/{driven['id']}/download"
+    part = client.get(address, headers={"Range": "bytes=0-7"})
     assert (part.status_code, part.content) == (206, b"\x89MCAP0\r\n")
-    bomb = client.get(f"{address}/download", headers={"Range": "bytes=" + ",".join(["0-1"] * 5000)})
+    bomb = client.get(address, headers={"Range": "bytes=" + ",".join(["0-1"] * 5000)})
     assert bomb.status_code in (200, 206, 400, 416)
-    assert len(bomb.content) < 10 * run["log_bytes"] + 1_000_000
-    stations_words = client.get(f"{address}/download", params={"format": "exe"})
-    assert stations_words.status_code == 422
+    assert len(bomb.content) < 10 * driven["log_bytes"] + 1_000_000
 
 
 def test_a_stopped_run_keeps_why_it_was_stopped(
