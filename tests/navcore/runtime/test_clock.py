@@ -2,25 +2,56 @@
 
 from __future__ import annotations
 
-import time
-
 import pytest
 
+from navcore.runtime import clock
 from navcore.runtime.clock import Every, Ticker
 from navcore.runtime.latest import Inbox
 
 MS = 1_000_000
 
 
-def test_ticks_keep_to_their_grid_and_skip_what_was_missed() -> None:
+class PlayedTime:
+    """Takes the place of the module `time`; sleeping takes 1 ms longer than asked."""
+
+    def __init__(self) -> None:
+        self.now_ns = 1000 * MS
+
+    def monotonic_ns(self) -> int:
+        return self.now_ns
+
+    def sleep(self, seconds: float) -> None:
+        self.now_ns += round(seconds * 1e9) + MS
+
+
+@pytest.fixture
+def played(monkeypatch: pytest.MonkeyPatch) -> PlayedTime:
+    time = PlayedTime()
+    monkeypatch.setattr(clock, "time", time)
+    return time
+
+
+def test_lateness_is_told_and_never_adds_up(played: PlayedTime) -> None:
     ticker = Ticker(5 * MS)
-    first_ns = ticker.next_ns
-    for _ in range(3):
-        assert ticker.wait() >= 0
-    time.sleep(0.012)
-    ticker.wait()
-    assert (ticker.next_ns - first_ns) % (5 * MS) == 0
-    assert ticker.next_ns > time.monotonic_ns() - 5 * MS
+    woken_ms = []
+    for _ in range(4):
+        assert ticker.wait() == MS
+        woken_ms.append(played.now_ns / MS)
+    assert woken_ms == [1006, 1011, 1016, 1021]
+
+
+def test_a_tick_that_is_due_already_is_not_waited_for(played: PlayedTime) -> None:
+    ticker = Ticker(5 * MS)
+    played.now_ns += 7 * MS
+    assert ticker.wait() == 2 * MS
+    assert played.now_ns == 1007 * MS
+
+
+def test_missed_ticks_are_skipped_and_the_grid_is_kept(played: PlayedTime) -> None:
+    ticker = Ticker(5 * MS)
+    played.now_ns += 18 * MS
+    assert ticker.wait() == 13 * MS
+    assert ticker.next_ns == 1020 * MS
 
 
 def test_something_is_due_once_a_period_on_average() -> None:
