@@ -68,7 +68,7 @@ class RunWatcher(Worker):
     def _take_status(self, status: NavStatus) -> None:
         self._heard_s = time.monotonic()
         if status.run_id is None:
-            self._let_go()
+            self._end_acknowledged()
             return
         if self._figures is None or self._figures.run_id != status.run_id:
             self._let_go()
@@ -78,6 +78,13 @@ class RunWatcher(Worker):
         if status.state in OVER and (before is None or before.state not in OVER):
             self._write()
             self._on_end(status.run_id)
+
+    def _end_acknowledged(self) -> None:
+        """A stopped run that the robot speaks of no more was acknowledged: nobody can resume it."""
+        figures = self._figures
+        self._let_go()
+        if figures is not None and figures.last is not None and figures.last.state not in OVER:
+            self._on_end(figures.run_id)
 
     def _follow(self, run_id: str) -> RunFigures:
         """A run that we did not see begin, after a restart of the station, gets its plan from the database."""

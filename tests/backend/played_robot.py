@@ -107,6 +107,7 @@ class PlayedRobot:
             self.run_id = request.run_id
             publisher.publish(NAV_PLAN.name, request.plan)
         self.state = AFTER.get(request.kind, self.state)
+        self.run_id = None if request.kind is RequestKind.ACKNOWLEDGE else self.run_id
         door.reply(Reply(request_id=request.request_id, accepted=True))
 
     def _guard(self) -> None:

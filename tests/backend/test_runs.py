@@ -223,3 +223,19 @@ def test_a_robot_that_was_placed_anew_is_not_ready_before_it_says_so_itself(
     assert until(nothing_comes)
     assert client.post("/api/robot/site", json={"site_id": ready["site_id"]}).status_code == 200
     assert client.get("/api/robot").json()["connected"] is False
+
+
+def test_the_log_of_a_stopped_run_is_closed_by_its_acknowledgement(
+    client: TestClient, robot: PlayedRobot, ready: dict[str, Any]
+) -> None:
+    def is_recording() -> bool:
+        recorder = client.get("/api/live/latest").json()["recorder/status"]
+        return bool(recorder and recorder["recording"])
+
+    run_id = start(client, ready).json()["id"]
+    assert until(lambda: client.get(f"/api/runs/{run_id}").json()["outcome"] == "running")
+    client.post("/api/runs/current/stop")
+    assert until(lambda: client.get(f"/api/runs/{run_id}").json()["outcome"] == "stopped")
+    assert until(is_recording)
+    assert client.post("/api/runs/current/acknowledge").json() == {"accepted": True}
+    assert until(lambda: not is_recording())
