@@ -3,10 +3,8 @@ import { IconArrowLeft, IconDownload } from "@tabler/icons-react";
 import { Link } from "wouter";
 
 import type { RunDetail } from "../api/types";
-import { Badge } from "../ui/Badge";
-import { bytes, centimetres, duration, moment, percent, way } from "../ui/format";
-import { OUTCOME_TONES, OUTCOME_WORDS } from "../ui/words";
-import { Figure } from "./RunsPage";
+import { bytes, moment } from "../ui/format";
+import { Outcome, RunFigures } from "./RunFigures";
 import css from "./runs.module.css";
 
 const FORMATS = ["mcap", "csv", "geojson", "gpx"] as const;
@@ -25,15 +23,8 @@ export function RunHeader({ run }: { run: RunDetail }) {
         </span>
         {run.reason && <span>{run.reason}</span>}
       </div>
-      <Badge tone={OUTCOME_TONES[run.outcome]}>{OUTCOME_WORDS[run.outcome]}</Badge>
-      <dl className={css.numbers}>
-        <Figure name="Duration" value={duration(run.duration_s)} />
-        <Figure name="Driven" value={way(run.distance_m)} />
-        <Figure name="Done" value={percent(run.progress)} />
-        <Figure name="Mean off line" value={centimetres(run.mean_lateral_error)} />
-        <Figure name="Largest" value={centimetres(run.max_lateral_error)} />
-        <Figure name="Switches" value={String(run.mode_switches)} />
-      </dl>
+      <Outcome run={run} />
+      <RunFigures run={run} full />
       <Downloads run={run} />
     </header>
   );

@@ -6,11 +6,10 @@ import { Link } from "wouter";
 import { sentences } from "../api/client";
 import { runsQuery } from "../api/queries";
 import type { RunDocument } from "../api/types";
-import { Badge } from "../ui/Badge";
 import { EmptyState } from "../ui/EmptyState";
-import { centimetres, duration, moment, percent, way } from "../ui/format";
+import { moment } from "../ui/format";
 import { Reasons } from "../ui/Reasons";
-import { OUTCOME_TONES, OUTCOME_WORDS } from "../ui/words";
+import { Outcome, RunFigures } from "./RunFigures";
 import css from "./runs.module.css";
 
 /** Every run, the newest first. */
@@ -39,23 +38,9 @@ function RunLine({ run }: { run: RunDocument }) {
         </span>
         {run.reason && <span>{run.reason}</span>}
       </div>
-      <Badge tone={OUTCOME_TONES[run.outcome]}>{OUTCOME_WORDS[run.outcome]}</Badge>
-      <dl className={css.numbers}>
-        <Figure name="Duration" value={duration(run.duration_s)} />
-        <Figure name="Driven" value={way(run.distance_m)} />
-        <Figure name="Done" value={percent(run.progress)} />
-        <Figure name="Mean off line" value={centimetres(run.mean_lateral_error)} />
-      </dl>
+      <Outcome run={run} />
+      <RunFigures run={run} />
     </Link>
-  );
-}
-
-export function Figure({ name, value }: { name: string; value: string }) {
-  return (
-    <div>
-      <dt>{name}</dt>
-      <dd>{value}</dd>
-    </div>
   );
 }
 

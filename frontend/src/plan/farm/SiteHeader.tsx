@@ -1,11 +1,11 @@
-import { ActionIcon, Menu, Select } from "@mantine/core";
-import { IconDotsVertical } from "@tabler/icons-react";
+import { Menu, Select } from "@mantine/core";
 import { useQuery } from "@tanstack/react-query";
 import { useState } from "react";
 import { useLocation } from "wouter";
 
 import { sitesQuery } from "../../api/queries";
 import type { SiteDocument } from "../../api/types";
+import { MoreButton } from "../../ui/MoreButton";
 import css from "../plan.module.css";
 import type { SiteEditing } from "../useSiteEditor";
 import { DeleteSite } from "./DeleteSite";
@@ -24,22 +24,15 @@ export function SiteHeader({ document, editing }: { document: SiteDocument; edit
     <>
       <div className={css.header}>
         <Select className={css.grow} size="lg" aria-label="Farm" data={data} value={document.id} onChange={(id) => id && go(`/plan/${id}`)} />
-        <Menu position="bottom-end" width={260}>
-          <Menu.Target>
-            <ActionIcon size={50} aria-label="More for this farm">
-              <IconDotsVertical />
-            </ActionIcon>
-          </Menu.Target>
-          <Menu.Dropdown>
-            <Menu.Item onClick={() => setDialog("new")}>New farm …</Menu.Item>
-            <Menu.Item component="a" href={`/api/sites/${document.id}/geojson`} download>
-              Export as GeoJSON
-            </Menu.Item>
-            <Menu.Item color="red" onClick={() => setDialog("delete")}>
-              Delete this farm …
-            </Menu.Item>
-          </Menu.Dropdown>
-        </Menu>
+        <MoreButton size={50} label="More for this farm">
+          <Menu.Item onClick={() => setDialog("new")}>New farm …</Menu.Item>
+          <Menu.Item component="a" href={`/api/sites/${document.id}/geojson`} download>
+            Export as GeoJSON
+          </Menu.Item>
+          <Menu.Item color="red" onClick={() => setDialog("delete")}>
+            Delete this farm …
+          </Menu.Item>
+        </MoreButton>
       </div>
       <SimulateButton siteId={document.id} editing={editing} />
       <NewSite opened={dialog === "new"} onClose={() => setDialog(null)} />

@@ -1,4 +1,4 @@
-import { ActionIcon, Button, FileButton, Loader, SegmentedControl } from "@mantine/core";
+import { Button, FileButton, Loader, Menu, SegmentedControl } from "@mantine/core";
 import { IconDownload, IconFileImport, IconRoute, IconTrash } from "@tabler/icons-react";
 import { useMutation, useQuery, useQueryClient } from "@tanstack/react-query";
 
@@ -7,6 +7,7 @@ import { missionsQuery } from "../../api/queries";
 import type { MissionDocument, RowExit, SiteDocument, SiteMap } from "../../api/types";
 import { Card } from "../../ui/Card";
 import { EmptyState } from "../../ui/EmptyState";
+import { MoreButton } from "../../ui/MoreButton";
 import { notifyDone } from "../../ui/notify";
 import { nextStep } from "../farm/nextStep";
 import { readJson } from "../imports/readJson";
@@ -55,16 +56,18 @@ function MissionItem({ mission, onOpen }: { mission: MissionDocument; onOpen: ()
   const ask = () => window.confirm(`Delete the mission “${mission.name}”?`) && erase.mutate();
   return (
     <li className={css.header}>
-      <button type="button" className={css.item} onClick={onOpen}>
+      <button type="button" className={`${css.item} ${css.tall}`} onClick={onOpen}>
         {mission.name}
         <small>{mission.mission.visits.length === 1 ? "1 row" : `${mission.mission.visits.length} rows`}</small>
       </button>
-      <ActionIcon component="a" href={`/api/missions/${mission.id}/geojson`} download aria-label={`Export ${mission.name} as GeoJSON`}>
-        <IconDownload size={20} />
-      </ActionIcon>
-      <ActionIcon onClick={ask} loading={erase.isPending} aria-label={`Delete ${mission.name}`}>
-        <IconTrash size={20} />
-      </ActionIcon>
+      <MoreButton label={`More for ${mission.name}`} loading={erase.isPending}>
+        <Menu.Item component="a" href={`/api/missions/${mission.id}/geojson`} download leftSection={<IconDownload size={20} />}>
+          Export as GeoJSON
+        </Menu.Item>
+        <Menu.Item color="red" leftSection={<IconTrash size={20} />} onClick={ask}>
+          Delete …
+        </Menu.Item>
+      </MoreButton>
     </li>
   );
 }
@@ -79,7 +82,7 @@ function ImportMission({ siteId }: { siteId: string }) {
     <FileButton accept=".geojson,.json,application/geo+json" onChange={(file) => file && load.mutate(file)}>
       {(props) => (
         <Button {...props} mt="sm" variant="default" fullWidth loading={load.isPending} leftSection={<IconFileImport size={20} />}>
-          Import a mission (GeoJSON)
+          Import GeoJSON
         </Button>
       )}
     </FileButton>
