@@ -10,7 +10,7 @@ import rasterio
 from playwright.sync_api import Page, expect
 from pyproj import Transformer
 
-PADDING_X_PX, PADDING_Y_PX = 2 * 72, 2 * 56  # of the map's "Show all" (frontend/src/map/FitTo.tsx)
+PADDING_X_PX, PADDING_Y_PX = 2 * 104, 2 * 56  # of the map's "Show all" (frontend/src/map/FitTo.tsx)
 FIT_MS = 1500
 BETWEEN_CLICKS_MS = 400  # two clicks of a hasty hand would be a double click
 

@@ -74,7 +74,7 @@ function paintText(ctx: CanvasRenderingContext2D, text: string, x: number, y: nu
 function paintBanner(ctx: CanvasRenderingContext2D, banner: Extract<Shape, { kind: "banner" }>, ratio: number): void {
   const height = 30 * ratio;
   const { width } = ctx.canvas;
-  ctx.fillStyle = banner.good ? "rgba(8,48,24,0.82)" : "rgba(110,0,16,0.88)";
+  ctx.fillStyle = banner.good ? "rgba(8,48,24,0.82)" : "rgba(30,36,33,0.86)";
   ctx.fillRect(0, 0, width, height);
   ctx.fillStyle = "#fff";
   ctx.textAlign = "left";

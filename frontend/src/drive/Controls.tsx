@@ -7,6 +7,7 @@ import { Link } from "wouter";
 import { post } from "../api/client";
 import type { MissionDocument, Preview, RunState, SiteDocument } from "../api/types";
 import { useFresh, useTopic } from "../live/hooks";
+import { HoldButton } from "../ui/HoldButton";
 import { isUnderWay } from "../ui/words";
 import { BackToWarehouse } from "./BackToWarehouse";
 import { StartSheet } from "./StartSheet";
@@ -28,7 +29,7 @@ interface Props {
   onMission: (id: string) => void;
 }
 
-/** Only what makes sense now; off while the data are old. */
+/** Only what makes sense now; off while the data are old. What leads from a stop to moving must be held. */
 export function Controls({ document, missions, mission, preview, onMission }: Props) {
   const status = useTopic("nav/status");
   const fresh = useFresh("nav/status");
@@ -59,6 +60,13 @@ export function Controls({ document, missions, mission, preview, onMission }: Pr
           </Button>
         );
       })}
+      {state === "stopped" && (
+        <div className={css.resume}>
+          <HoldButton disabled={!fresh || act.isPending} onHeld={() => act.mutate("resume")}>
+            Hold to resume
+          </HoldButton>
+        </div>
+      )}
       {mission && <StartSheet opened={sheet} onClose={() => setSheet(false)} document={document} mission={mission} preview={preview} />}
     </div>
   );

@@ -2,7 +2,7 @@ import type { ReactNode } from "react";
 
 import type { NavStatus } from "../api/types";
 import { useFresh, useTopic } from "../live/hooks";
-import { centimetres, degrees, duration, metres, percent, seconds, speed, volts } from "../ui/format";
+import { accuracy, centimetres, degrees, duration, metres, percent, seconds, speed, volts } from "../ui/format";
 import { type Tone, fixWords, positionSigma } from "../ui/words";
 import css from "./drive.module.css";
 
@@ -40,13 +40,13 @@ function Gauge({ name, value, note, tone }: { name: string; value: ReactNode; no
   );
 }
 
-const side = (lateral: number | null | undefined) => (!lateral ? "" : lateral > 0 ? "left of it" : "right of it");
+const side = (lateral: number | null | undefined) => (!lateral || Math.abs(lateral) < 0.005 ? "" : lateral > 0 ? "left of it" : "right of it");
 
 const lateralTone = (lateral: number | null | undefined): Tone | undefined =>
   lateral && Math.abs(lateral) > LATERAL_WARN ? "warn" : undefined;
 
 function gnssNote({ gnss_age_s, pose }: NavStatus): string {
-  return `position ±${centimetres(positionSigma(pose?.covariance))}, ${seconds(gnss_age_s)} old`;
+  return `position ±${accuracy(positionSigma(pose?.covariance))}, ${seconds(gnss_age_s)} old`;
 }
 
 const gnssTone = (s: NavStatus | null): Tone | undefined => (!s ? undefined : s.gnss_quality === 0 || (s.gnss_age_s ?? 9) > 1 ? "warn" : undefined);

@@ -34,7 +34,7 @@ export function MapView({ children, className = "" }: { children: ReactNode; cla
 function newMap(target: HTMLElement): OlMap {
   return new OlMap({
     target,
-    controls: [new Zoom({ zoomInTipLabel: "Closer", zoomOutTipLabel: "Farther" }), new ScaleLine({ units: "metric", minWidth: 80 })],
+    controls: [new Zoom({ zoomInTipLabel: "Closer", zoomOutTipLabel: "Farther" }), new ScaleLine({ units: "metric", minWidth: 56 })],
     view: new View({ center: [0, 0], zoom: 2, maxZoom: MAX_ZOOM, enableRotation: false }),
     moveTolerance: 6,
   });

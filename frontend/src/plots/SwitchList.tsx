@@ -1,5 +1,5 @@
 import type { ModeSwitch } from "../api/types";
-import { centimetres, clock, metres, percent } from "../ui/format";
+import { accuracy, centimetres, clock, metres, percent } from "../ui/format";
 import { MODE_COLORS, MODE_WORDS } from "../ui/words";
 import css from "./switches.module.css";
 
@@ -38,7 +38,7 @@ function Switch({ item, t, onPick }: { item: ModeSwitch; t: number | undefined; 
 
 function numbers({ gnss_std, row_quality, row_offset, end_distance }: ModeSwitch): string {
   const parts = [
-    gnss_std !== null && `GNSS ±${centimetres(gnss_std)}`,
+    gnss_std !== null && `GNSS ±${accuracy(gnss_std)}`,
     row_quality !== null && `row ${percent(row_quality)}`,
     row_offset !== null && `offset ${centimetres(row_offset)}`,
     end_distance !== null && `end in ${metres(end_distance)}`,

@@ -17,6 +17,8 @@ const withUnit = (unit: string, digits: number, factor = 1) => (value: Maybe) =>
 export const speed = withUnit("m/s", 2);
 export const metres = withUnit("m", 1);
 export const centimetres = withUnit("cm", 0, 100);
+/** A 1-sigma; never better than the centimetre that it is told in. */
+export const accuracy = (sigma: Maybe) => centimetres(known(sigma) ? Math.max(sigma, 0.01) : sigma);
 export const degrees = withUnit("°", 1, 180 / Math.PI);
 export const volts = withUnit("V", 1);
 export const seconds = withUnit("s", 1);

@@ -34,14 +34,17 @@ interface Props {
 /** Drawing tools; undo and redo are off where there is nothing to go back to. */
 export function Toolbar({ tool, onTool, onUndo, onRedo }: Props) {
   return (
-    <div className={css.toolbar} role="toolbar" aria-label="Drawing tools">
-      {TOOLS.map(({ name, word }) => (
-        <ToolButton key={name} icon={ICONS[name]} word={word} pressed={tool === name} onClick={() => onTool(name)} />
-      ))}
-      <hr />
-      <ToolButton icon={IconArrowBackUp} word="Undo" onClick={onUndo} />
-      <ToolButton icon={IconArrowForwardUp} word="Redo" onClick={onRedo} />
-    </div>
+    <>
+      <div className={css.toolbar} role="toolbar" aria-label="Drawing tools">
+        {TOOLS.map(({ name, word }) => (
+          <ToolButton key={name} icon={ICONS[name]} word={word} pressed={tool === name} onClick={() => onTool(name)} />
+        ))}
+      </div>
+      <div className={css.history} role="group" aria-label="Undo and redo">
+        <ToolButton icon={IconArrowBackUp} word="Undo" onClick={onUndo} />
+        <ToolButton icon={IconArrowForwardUp} word="Redo" onClick={onRedo} />
+      </div>
+    </>
   );
 }
 

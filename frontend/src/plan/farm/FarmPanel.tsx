@@ -1,4 +1,5 @@
 import { TextInput } from "@mantine/core";
+import { useEffect, useRef, useState } from "react";
 
 import type { SiteDocument, SiteMap } from "../../api/types";
 import { type ItemRef, WAREHOUSE, sameItem } from "../../map/siteFeatures";
@@ -21,8 +22,18 @@ interface Props {
 export function FarmPanel({ document, editing, selected, onSelect }: Props) {
   const { site, commit } = editing;
   const step = nextStep(site);
+  const top = useRef<HTMLDivElement>(null);
+  const [picked, setPicked] = useState<ItemRef | null>(null);
+  const pick = (ref: ItemRef) => {
+    onSelect(ref);
+    setPicked({ ...ref });
+  };
+  // What is picked far down in the list shows its numbers at the top.
+  useEffect(() => {
+    if (picked) top.current?.scrollIntoView({ block: "start" });
+  }, [picked]);
   return (
-    <div className={css.stack}>
+    <div className={css.stack} ref={top}>
       {selected && <ItemPanel site={site} selected={selected} onCommit={commit} onSelect={onSelect} />}
       {step && <Card title="Next step">{step}</Card>}
       <Card title="This farm">
@@ -38,7 +49,7 @@ export function FarmPanel({ document, editing, selected, onSelect }: Props) {
         </div>
       </Card>
       <Card title="Drawn">
-        <Items site={site} selected={selected} onSelect={onSelect} />
+        <Items site={site} selected={selected} onSelect={pick} />
       </Card>
     </div>
   );

@@ -24,7 +24,7 @@ export function WarehouseFields({ site, warehouse, onCommit }: { site: SiteMap; 
   return (
     <>
       <NameField value={warehouse.name} onChange={(name) => change({ name })} />
-      <NumberField label="Parked looking (0° east, 90° north)" unit="°" min={-180} max={180} step={5} value={warehouse.yaw * DEG} onChange={(deg) => change({ yaw: deg / DEG })} />
+      <NumberField steps label="Parked looking (0° east, 90° north)" unit="°" min={-180} max={180} step={5} value={warehouse.yaw * DEG} onChange={(deg) => change({ yaw: deg / DEG })} />
     </>
   );
 }

@@ -49,7 +49,7 @@ function Visit({ visit, name, onChange, onRemove }: VisitProps) {
       </div>
       <SegmentedControl fullWidth value={visit.from_start ? "start" : "end"} onChange={(side) => onChange({ from_start: side === "start" })} data={SIDES} />
       <SegmentedControl fullWidth value={visit.exit} onChange={(exit) => onChange({ exit: exit as RowExit })} data={EXITS} aria-label="At the far end" />
-      <NumberField label="Speed in the row" unit="m/s" min={0.1} max={2} step={0.1} value={visit.speed} onChange={(speed) => onChange({ speed })} />
+      <NumberField steps label="Speed in the row" unit="m/s" min={0.1} max={2} step={0.1} value={visit.speed} onChange={(speed) => onChange({ speed })} />
     </div>
   );
 }

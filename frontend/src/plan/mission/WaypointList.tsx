@@ -19,10 +19,11 @@ export function WaypointList({ mission, leg, first, onEdit }: Props) {
   if (mission[leg].length === 0) return <p className={css.quiet}>No waypoints: straight ahead.</p>;
   return (
     <div className={`${css.stack} ${leg === "inbound" ? css.inbound : ""}`}>
+      <p className={css.quiet}>Speed on the way to each waypoint.</p>
       {mission[leg].map((waypoint, i) => (
         <div key={i} className={css.waypoint}>
           <span className={css.number}>{first + i}</span>
-          <NumberField label={`Speed to waypoint ${first + i}`} unit="m/s" min={0.1} max={2} step={0.1} value={waypoint.speed} onChange={(speed) => onEdit(changeWaypoint(mission, leg, i, { speed }))} />
+          <NumberField labelHidden label={`Speed to waypoint ${first + i}`} unit="m/s" min={0.1} max={2} step={0.1} value={waypoint.speed} onChange={(speed) => onEdit(changeWaypoint(mission, leg, i, { speed }))} />
           <ActionIcon onClick={() => onEdit(addWaypointAfter(mission, leg, i))} aria-label={`Add a waypoint after ${first + i}`}>
             <IconPlus size={20} />
           </ActionIcon>
