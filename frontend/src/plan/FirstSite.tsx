@@ -2,13 +2,13 @@ import { Group } from "@mantine/core";
 import { IconMapPinPlus } from "@tabler/icons-react";
 
 import { EmptyState } from "../ui/EmptyState";
-import { GeoJsonButton, PhotoButton } from "./imports/ImportButtons";
+import { PhotoButton, SiteFileButton } from "./imports/ImportButtons";
 
 export function FirstSite() {
   const actions = (
     <Group justify="center">
       <PhotoButton path="/api/orthophotos" word="Import an orthophoto (GeoTIFF)" />
-      <GeoJsonButton word="Import GeoJSON" />
+      <SiteFileButton word="Import GeoJSON" />
     </Group>
   );
   return (

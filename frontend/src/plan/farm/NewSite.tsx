@@ -1,13 +1,13 @@
 import { Modal, Stack } from "@mantine/core";
 
-import { GeoJsonButton, PhotoButton } from "../imports/ImportButtons";
+import { PhotoButton, SiteFileButton } from "../imports/ImportButtons";
 
 export function NewSite({ opened, onClose }: { opened: boolean; onClose: () => void }) {
   return (
     <Modal opened={opened} onClose={onClose} title={<b>New farm</b>}>
       <Stack>
         <PhotoButton path="/api/orthophotos" word="From an orthophoto (GeoTIFF)" />
-        <GeoJsonButton word="From GeoJSON" />
+        <SiteFileButton word="From GeoJSON" />
       </Stack>
     </Modal>
   );

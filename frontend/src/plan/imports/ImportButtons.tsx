@@ -1,15 +1,12 @@
 import { Button, FileButton } from "@mantine/core";
-import { IconFileImport, IconPhotoPlus } from "@tabler/icons-react";
-import { useMutation, useQueryClient } from "@tanstack/react-query";
+import { IconPhotoPlus } from "@tabler/icons-react";
+import { useQueryClient } from "@tanstack/react-query";
 import { useState } from "react";
 import { useLocation } from "wouter";
 
-import { post } from "../../api/client";
 import type { SiteDocument } from "../../api/types";
+import { GeoJsonButton } from "./GeoJsonButton";
 import { ImportProgress } from "./ImportProgress";
-import { readJson } from "./readJson";
-
-const VARIANT = { variant: "default", fullWidth: true, justify: "flex-start" } as const;
 
 /** Sends an orthophoto; a new site's page opens when its tiles are ready. */
 export function PhotoButton({ path, word }: { path: string; word: string }) {
@@ -18,7 +15,7 @@ export function PhotoButton({ path, word }: { path: string; word: string }) {
     <>
       <FileButton accept=".tif,.tiff,image/tiff" onChange={setFile}>
         {(props) => (
-          <Button {...props} {...VARIANT} leftSection={<IconPhotoPlus size={22} />}>
+          <Button {...props} variant="default" fullWidth justify="flex-start" leftSection={<IconPhotoPlus size={22} />}>
             {word}
           </Button>
         )}
@@ -29,23 +26,12 @@ export function PhotoButton({ path, word }: { path: string; word: string }) {
 }
 
 /** Makes a new site of a GeoJSON file. */
-export function GeoJsonButton({ word }: { word: string }) {
+export function SiteFileButton({ word }: { word: string }) {
   const client = useQueryClient();
   const [, go] = useLocation();
-  const load = useMutation({
-    mutationFn: async (file: File) => post<SiteDocument>("/api/sites/import", await readJson(file)),
-    onSuccess: ({ id }) => {
-      void client.invalidateQueries({ queryKey: ["sites"] });
-      go(`/plan/${id}`);
-    },
-  });
-  return (
-    <FileButton accept=".geojson,.json,application/geo+json" onChange={(file) => file && load.mutate(file)}>
-      {(props) => (
-        <Button {...props} {...VARIANT} loading={load.isPending} leftSection={<IconFileImport size={22} />}>
-          {word}
-        </Button>
-      )}
-    </FileButton>
-  );
+  const show = ({ id }: SiteDocument) => {
+    void client.invalidateQueries({ queryKey: ["sites"] });
+    go(`/plan/${id}`);
+  };
+  return <GeoJsonButton path="/api/sites/import" word={word} onDone={show} />;
 }

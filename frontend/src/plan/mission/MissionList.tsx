@@ -1,8 +1,8 @@
-import { Button, FileButton, Loader, Menu, SegmentedControl } from "@mantine/core";
-import { IconDownload, IconFileImport, IconRoute, IconTrash } from "@tabler/icons-react";
+import { Loader, Menu, SegmentedControl } from "@mantine/core";
+import { IconDownload, IconRoute, IconTrash } from "@tabler/icons-react";
 import { useMutation, useQuery, useQueryClient } from "@tanstack/react-query";
 
-import { post, remove } from "../../api/client";
+import { remove } from "../../api/client";
 import { missionsQuery } from "../../api/queries";
 import type { MissionDocument, RowExit, SiteDocument, SiteMap } from "../../api/types";
 import { Card } from "../../ui/Card";
@@ -10,13 +10,14 @@ import { EmptyState } from "../../ui/EmptyState";
 import { MoreButton } from "../../ui/MoreButton";
 import { notifyDone } from "../../ui/notify";
 import { nextStep } from "../farm/nextStep";
-import { readJson } from "../imports/readJson";
+import { GeoJsonButton } from "../imports/GeoJsonButton";
 import css from "../plan.module.css";
 import { EXITS } from "./exits";
 import type { MissionDraft } from "./useMissionDraft";
 
 /** Press a row for a new mission, or open one. */
 export function MissionList({ document, site, draft }: { document: SiteDocument; site: SiteMap; draft: MissionDraft }) {
+  const client = useQueryClient();
   const missions = useQuery(missionsQuery(document.id)).data;
   const missing = site.rows.length === 0 || !site.warehouse ? nextStep(site) : null;
   if (missing) {
@@ -34,11 +35,13 @@ export function MissionList({ document, site, draft }: { document: SiteDocument;
         {draft.making && <Loader mt="md" />}
       </Card>
       <Card title="Missions on this farm">
-        <ul className={css.list}>
-          {missions?.map((mission) => <MissionItem key={mission.id} mission={mission} onOpen={() => draft.open(mission)} />)}
-        </ul>
-        {missions?.length === 0 && <p className={css.quiet}>None yet.</p>}
-        <ImportMission siteId={document.id} />
+        <div className={css.stack}>
+          <ul className={css.list}>
+            {missions?.map((mission) => <MissionItem key={mission.id} mission={mission} onOpen={() => draft.open(mission)} />)}
+          </ul>
+          {missions?.length === 0 && <p className={css.quiet}>None yet.</p>}
+          <GeoJsonButton path={`/api/sites/${document.id}/missions/import`} word="Import GeoJSON" onDone={() => void client.invalidateQueries({ queryKey: ["missions"] })} />
+        </div>
       </Card>
     </div>
   );
@@ -69,22 +72,5 @@ function MissionItem({ mission, onOpen }: { mission: MissionDocument; onOpen: ()
         </Menu.Item>
       </MoreButton>
     </li>
-  );
-}
-
-function ImportMission({ siteId }: { siteId: string }) {
-  const client = useQueryClient();
-  const load = useMutation({
-    mutationFn: async (file: File) => post(`/api/sites/${siteId}/missions/import`, await readJson(file)),
-    onSuccess: () => client.invalidateQueries({ queryKey: ["missions"] }),
-  });
-  return (
-    <FileButton accept=".geojson,.json,application/geo+json" onChange={(file) => file && load.mutate(file)}>
-      {(props) => (
-        <Button {...props} mt="sm" variant="default" fullWidth loading={load.isPending} leftSection={<IconFileImport size={20} />}>
-          Import GeoJSON
-        </Button>
-      )}
-    </FileButton>
   );
 }
