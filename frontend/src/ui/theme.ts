@@ -2,6 +2,9 @@ import { ActionIcon, Button, Menu, Modal, NumberInput, SegmentedControl, Select,
 
 const TALL = { minHeight: 44 };
 
+/** Dialogs keep clear of the stop button, which stays above them. */
+const STOP_BAR = 84;
+
 /** Sizes for gloved fingers: nothing to press is lower than 44 px. Colours stand in tokens.css. */
 export const theme = createTheme({
   primaryColor: "green",
@@ -15,6 +18,6 @@ export const theme = createTheme({
     SegmentedControl: SegmentedControl.extend({ defaultProps: { size: "md" }, styles: { label: { minHeight: 44, minWidth: 44, alignContent: "center", paddingInline: 5, fontSize: 15 } } }),
     Menu: Menu.extend({ styles: { item: { minHeight: 44, fontSize: 16 } } }),
     // Locking the page's scroll would inject a style element, which the CSP forbids.
-    Modal: Modal.extend({ defaultProps: { centered: true, lockScroll: false, size: "lg", closeButtonProps: { size: 44, "aria-label": "Close" } } }),
+    Modal: Modal.extend({ defaultProps: { centered: true, yOffset: STOP_BAR, lockScroll: false, size: "lg", closeButtonProps: { size: 44, "aria-label": "Close" } } }),
   },
 });
