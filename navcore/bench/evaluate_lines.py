@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 import math
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
-from navcore.messages import MissionPlan, TrueRow
+from navcore.messages import MissionPlan, SegmentKind, TrueRow
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
-# Points of the path that are searched behind and ahead of the last match, m.
+# Part of a road that is searched behind and ahead of the last match, m.
 _BEHIND, _AHEAD = 1.0, 4.0
-# So far does a leg go on straight at its ends, m.
+# Points of a neighbouring segment that belong to a piece: about a metre.
+_JOINT = 10
+# So far does the path go on straight where the robot turns back, m.
 _PROLONGED = 0.5
 
 
@@ -41,42 +42,51 @@ def heading_off_row(row: TrueRow, yaw: Floats) -> Floats:
 def path_deviation(plan: MissionPlan, points: Floats, segments: Ints) -> Floats:
     """Distance (N,) of consecutive true positions (N, 2) from the planned path, m, positive on its left.
 
-    `segments` (N,) tells which one was driven: a leg, up to where the robot turns back, is matched by itself and goes
-    on straight for half a metre at both ends, for to overshoot it is no error to the side. The match moves on along
-    the leg with the robot, so a part of the path that happens to pass nearby never counts.
+    `segments` (N,) tells which one was driven: a position is matched to that one alone, and on roads to the part
+    that the last match leads to, so a part of the path that happens to pass nearby never counts. Where the robot
+    turns back the path goes on straight for half a metre, for to overshoot it is no error to the side.
     """
-    deviation = np.empty(len(points))
-    for first, last in legs(plan):
-        here = np.flatnonzero((segments >= first) & (segments < last))
-        if len(here):
-            path = prolonged(np.concatenate([np.asarray(s.points) for s in plan.segments[first:last]]))
-            deviation[here] = _leg_deviation(path, points[here])
+    deviation, at = np.empty(len(points)), 0.0
+    pieces = [_Piece(plan, k) for k in range(len(plan.segments))]
+    for i, (point, segment) in enumerate(zip(points, segments, strict=True)):
+        if i == 0 or segment != segments[i - 1]:
+            at = 0.0
+        deviation[i], at = pieces[segment].nearest(point, at)
     return deviation
 
 
-def legs(plan: MissionPlan) -> list[tuple[int, int]]:
-    """Ranges of segments that are driven without turning back."""
-    turns = [i for i in range(1, len(plan.segments)) if plan.segments[i].reverse != plan.segments[i - 1].reverse]
-    return list(pairwise((0, *turns, len(plan.segments))))
+class _Piece:
+    """One segment, with a metre of its neighbours at either end, or a straight end where the robot turns back."""
+
+    def __init__(self, plan: MissionPlan, k: int) -> None:
+        own = np.asarray(plan.segments[k].points)
+        before, after = _neighbour(plan, k, -1), _neighbour(plan, k, +1)
+        first = _straight_on(own[0], own[1]) if before is None else before[-_JOINT:]
+        last = _straight_on(own[-1], own[-2]) if after is None else after[:_JOINT]
+        self._path = np.vstack((first, own, last))
+        self._reach = np.concatenate(((0.0,), np.cumsum(np.hypot(*np.diff(self._path, axis=0).T))))
+        self._long = plan.segments[k].kind is SegmentKind.ROAD
+
+    def nearest(self, point: Floats, at: float) -> tuple[float, float]:
+        """Signed distance, and the arc length of the match; the last one was at `at`."""
+        if not self._long:
+            return _nearest(self._path, self._reach, point)
+        first, last = np.searchsorted(self._reach, (at - _BEHIND, at + _AHEAD))
+        first, last = max(int(first) - 1, 0), min(int(last) + 1, len(self._path))
+        return _nearest(self._path[first:last], self._reach[first:last], point)
 
 
-def prolonged(path: Floats) -> Floats:
-    """The path (N, 2), going on straight at both ends."""
-    ends = []
-    for end, before in ((path[0], path[1]), (path[-1], path[-2])):
-        way = end - before
-        ends.append(end + way / max(float(np.hypot(*way)), 1e-9) * _PROLONGED)
-    return np.vstack((ends[0], path, ends[1]))
+def _neighbour(plan: MissionPlan, k: int, step: int) -> Floats | None:
+    """Points of the segment before or behind, None where the robot turns back or the path ends."""
+    other = k + step
+    if not 0 <= other < len(plan.segments) or plan.segments[other].reverse != plan.segments[k].reverse:
+        return None
+    return np.asarray(plan.segments[other].points)
 
 
-def _leg_deviation(path: Floats, points: Floats) -> Floats:
-    reach = np.concatenate(((0.0,), np.cumsum(np.hypot(*np.diff(path, axis=0).T))))
-    deviation, at = np.empty(len(points)), _PROLONGED
-    for i, point in enumerate(points):
-        first, last = np.searchsorted(reach, (at - _BEHIND, at + _AHEAD))
-        first, last = max(int(first) - 1, 0), min(int(last) + 1, len(path))
-        deviation[i], at = _nearest(path[first:last], reach[first:last], point)
-    return deviation
+def _straight_on(end: Floats, before: Floats) -> Floats:
+    way = end - before
+    return np.asarray([end + way / max(float(np.hypot(*way)), 1e-9) * _PROLONGED])
 
 
 def _nearest(path: Floats, reach: Floats, point: Floats) -> tuple[float, float]:

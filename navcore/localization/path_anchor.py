@@ -121,6 +121,15 @@ class PathAnchor:
         self.var_along *= 1.0 - gain
         self._set(row.pose(SE2(at.x + gain * (along - at.x), at.y, at.yaw)), T_odom_drive)
 
+    def see_no_end(self, row: RowLine, T_odom_drive: SE2, at_most: float) -> None:
+        """The row goes on, so the driving frame's row coordinate x is no larger than `at_most`, m.
+
+        Wheels that slip tell more metres than were driven: 66 m on bare soil become 70.
+        """
+        at = row.coordinates(self.T_map_odom @ T_odom_drive)
+        if at.x > at_most:
+            self._set(row.pose(SE2(at_most, at.y, at.yaw)), T_odom_drive)
+
     def _set(self, T_map_drive: SE2, T_odom_drive: SE2) -> None:
         self.T_map_odom = T_map_drive @ T_odom_drive.inverse()
 

@@ -20,12 +20,12 @@ class RowEvidenceParams:
         gate: largest disagreement with the expected row, as a share of the corridor width, in (0, 0.5): beyond half a
             width the neighbouring row would be the nearer one. It holds by the tie to what was seen before, and
             outside the row by GNSS as well: a fit that begins between two rows may creep over to the wrong one.
-        heading_gate: largest disagreement of the direction, rad.
+        heading_gate: largest disagreement of the direction, rad: plants on a lattice stand in line crosswise too.
         min_quality: 0 to 1.
     """
 
     gate: float = 0.38
-    heading_gate: float = 0.35
+    heading_gate: float = 0.16
     min_quality: float = 0.15
 
 

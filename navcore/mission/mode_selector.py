@@ -85,8 +85,10 @@ def _lost(f: ModeFacts, p: ModeSelectorParams) -> bool:
 
 
 def _at_end(f: ModeFacts, p: ModeSelectorParams) -> bool:
-    by_path = f.segment in (SegmentKind.EXIT, SegmentKind.HEADLAND, SegmentKind.ROAD)
-    return by_path or (f.to_end is not None and f.to_end < p.end_zone)
+    """By the row's end where it is known: the path may slide back over a joint when the row's place is corrected."""
+    if f.to_end is not None:
+        return f.to_end < p.end_zone
+    return f.segment in (SegmentKind.EXIT, SegmentKind.HEADLAND, SegmentKind.ROAD)
 
 
 def _row_goes_on(f: ModeFacts, p: ModeSelectorParams) -> bool:

@@ -24,6 +24,7 @@ from navcore.mission.mode_selector import ModeFacts, ModeSelectorParams, first_m
 from navcore.mission.route import Leg, Place, Route
 
 ON_CAMERA = frozenset({NavMode.ROW_ENTRY, NavMode.ROW})
+ALONG_ROW = frozenset({NavMode.ROW, NavMode.ROW_END})
 CARRIED = frozenset({NavMode.ROW_END, NavMode.HEADLAND})
 ROW_SEGMENTS = frozenset({SegmentKind.ENTRY, SegmentKind.ROW, SegmentKind.EXIT})
 
@@ -38,6 +39,8 @@ class PilotParams:
         search: half width of the search for the place on the path, m.
         look_out: the camera is used from this far before a row's entry segment, m.
         end_std: 1-sigma of the row end's distance as the camera sees it, m.
+        seen_share: share of the distance up to which the row is seen to go on that is believed: a camera that pitches
+            by half a degree sees 10 m as 11.
     """
 
     arrival: float = 0.12
@@ -45,6 +48,7 @@ class PilotParams:
     search: float = 3.0
     look_out: float = 4.0
     end_std: float = 0.4
+    seen_share: float = 0.9
     anchor: PathAnchorParams = field(default_factory=PathAnchorParams)
     row: RowEvidenceParams = field(default_factory=RowEvidenceParams)
     mode: ModeSelectorParams = field(default_factory=ModeSelectorParams)
@@ -147,14 +151,20 @@ class Pilot:
         if row is None or segment is None or seen.camera is not self._camera():
             return
         expected = self._expected(T_odom_drive)
-        if not self.row.judge(seen, row, expected, segment.corridor_width or 3.0) or self.mode not in ON_CAMERA:
+        if not self.row.judge(seen, row, expected, segment.corridor_width or 3.0):
             return
-        if seen.offset is not None and seen.heading is not None:
+        if self.mode in ON_CAMERA and seen.offset is not None and seen.heading is not None:
             stds = seen.offset_std or 0.05, seen.heading_std or 0.02
             self.anchor.see_row(row, T_odom_drive, seen.offset, seen.heading, *stds)
-        if self.mode is NavMode.ROW and seen.end_distance is not None:
-            along = self._row_length(segment) - seen.end_distance
-            self.anchor.see_along(row, T_odom_drive, along, self.params.end_std)
+        if self.mode in ALONG_ROW:
+            self._see_along(seen, row, T_odom_drive, self._row_length(segment))
+
+    def _see_along(self, seen: RowObservation, row: RowLine, T_odom_drive: SE2, length: float) -> None:
+        """Correct the place along the row by its end, or by its having none yet."""
+        if seen.end_distance is not None:
+            self.anchor.see_along(row, T_odom_drive, length - seen.end_distance, self.params.end_std)
+        elif seen.seen_to is not None:
+            self.anchor.see_no_end(row, T_odom_drive, length - self.params.seen_share * seen.seen_to)
 
     def _expected(self, T_odom_drive: SE2) -> tuple[SE2, ...]:
         """Poses of the driving frame at a capture: by the anchor, and before the entrance by good GNSS too."""

@@ -14,7 +14,7 @@ from navcore.perception.row_lines import GroundRow, RowLines
 
 def row_observation(
     stamp_ns: int, name: CameraName, lines: RowLines, ground: GroundRow | str, end: float | None,
-    published: tuple[float, float] | None,
+    seen_to: float | None, published: tuple[float, float] | None,
 ) -> RowObservation:  # fmt: skip
     """The row on the ground, or the reason why there is none; `published` is the bisector's reading beside it."""
     if isinstance(ground, str):
@@ -23,7 +23,7 @@ def row_observation(
     return RowObservation(
         stamp_ns=stamp_ns, camera=name, valid=True, reason="", offset=ground.offset, heading=ground.heading,
         offset_std=math.sqrt(ground.covariance[0, 0]), heading_std=math.sqrt(ground.covariance[1, 1]),
-        quality=ground.quality, width=ground.width, end_distance=end,
+        quality=ground.quality, width=ground.width, end_distance=end, seen_to=seen_to,
         objects=len(ground.left_x) + len(ground.right_x), left_seen=lines.left_seen, right_seen=lines.right_seen,
         image_offset=image_offset, image_heading=image_heading,
     )  # fmt: skip

@@ -71,8 +71,10 @@ class CorridorFit:
         scale = camera.width_px / 640 / camera.fx
         self._noise = (params.foot_u_px * scale, params.foot_v_px * scale, params.plant_std, params.curve)
 
-    def acquire(self, feet: Floats, mean: Floats, information: Floats, reach: float) -> Corridor:
-        """The best corridor for feet (N, 2), pixels, over all whose offset lies within `reach` (m) of the prior's."""
+    def acquire(self, feet: Floats, mean: Floats, information: Floats, reach: tuple[float, float]) -> Corridor:
+        """The best corridor for feet (N, 2), pixels, over all whose offset and heading lie within `reach` (m, rad)
+        of the prior's.
+        """
         rays, used = self._rays(feet)
         p, rays_used = self._params, rays[used]
         start, _ = kernels.acquire(rays_used, mean, information, self._mount, self._noise, p.lines, p.tries, reach)

@@ -207,19 +207,27 @@ def hypotheses(lines: Floats, width: float, mount: Mount) -> Floats:
 
 @njit(cache=True)
 def acquire(
-    rays: Floats, mean: Floats, information: Floats, mount: Mount, noise: Noise, lines: int, tries: int, reach: float
-) -> tuple[Floats, float]:
-    """The best corridor within `reach` of the prior's offset, the `tries` best of which are refined; its score."""
+    rays: Floats, mean: Floats, information: Floats, mount: Mount, noise: Noise, lines: int, tries: int,
+    reach: tuple[float, float],
+) -> tuple[Floats, float]:  # fmt: skip
+    """The best corridor within `reach` (m, rad) of the prior's offset and heading, the `tries` best of which are
+    refined; its score.
+    """
     states = hypotheses(best_lines(rays, lines, mount, noise), mean[2], mount)
     first = np.empty(len(states))
     for i in range(len(states)):
         first[i] = score(states[i], rays, mean, information, mount, noise)
-        if abs(states[i, 0] - mean[0]) > 1.3 * reach:
+        if _beyond(states[i], mean, reach, 1.3):
             first[i] = -1e9
     best, best_score = mean.copy(), score(mean, rays, mean, information, mount, noise)
     for i in np.argsort(-first, kind="mergesort")[:tries]:
         z, _, _ = refine(states[i], rays, mean, information, mount, noise, 6, 2.0)
         value = score(z, rays, mean, information, mount, noise)
-        if value > best_score and abs(z[0] - mean[0]) <= reach:
+        if value > best_score and not _beyond(z, mean, reach, 1.0):
             best, best_score = z, value
     return best, best_score
+
+
+@njit(cache=True)
+def _beyond(z: Floats, mean: Floats, reach: tuple[float, float], times: float) -> bool:
+    return bool(abs(z[0] - mean[0]) > times * reach[0] or abs(z[1] - mean[1]) > times * reach[1])

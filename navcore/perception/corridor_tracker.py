@@ -38,6 +38,8 @@ class CorridorTrackerParams:
         lost_share, lost_frames: a track that explains less than that share of the near objects in so many pictures
             in a row is dropped.
         wrong_row: a corridor further from the prior than that share of the width is another row.
+        wrong_heading_deg: one that runs that much off the prior is none: plants on a lattice stand in line crosswise
+            too.
         max_prior_std: a prior less certain than that share of the width cannot tell a row from its neighbours.
         floor_offset, floor_heading_deg: 1-sigma of what no fit can see: mount, roll, planting.
     """
@@ -60,6 +62,7 @@ class CorridorTrackerParams:
     lost_share: float = 0.34
     lost_frames: int = 4
     wrong_row: float = 0.5
+    wrong_heading_deg: float = 9.0
     max_prior_std: float = 0.3
     floor_offset: float = 0.02
     floor_heading_deg: float = 0.4
@@ -121,7 +124,9 @@ class CorridorTracker:
         mean, covariance = _expected(prior, self._params)
         if math.sqrt(covariance[0, 0]) > self._params.max_prior_std * mean[2]:
             return _nothing(corners, "the row's expected place is too vague to tell it from its neighbours")
-        corridor = self._fit.acquire(corners.feet, mean, _inverse(covariance), self._params.wrong_row * mean[2])
+        turn = math.radians(self._params.wrong_heading_deg) if prior is not None else math.pi / 2
+        reach = (self._params.wrong_row * float(mean[2]), turn)
+        corridor = self._fit.acquire(corners.feet, mean, _inverse(covariance), reach)
         reason = self._too_little(corridor, prior, len(corners))
         track = _Track(state=corridor.state, covariance=corridor.covariance)
         reason = reason or self._doubt(track, corridor, len(corners))
@@ -216,10 +221,12 @@ def _moved(track: _Track, motion: SE2, p: CorridorTrackerParams) -> _Track:
 
 
 def _other_row(track: _Track, prior: RowPrior | None, p: CorridorTrackerParams) -> bool:
-    """Whether the corridor is too far from the expected one to be it. A vague prior cannot say so."""
+    """Whether the corridor lies or runs too far from the expected one to be it. A vague prior cannot say so."""
     if prior is None or prior.std > p.max_prior_std * track.state[2]:
         return False
-    return bool(abs(track.state[0] - prior.offset) > p.wrong_row * track.state[2])
+    aside = abs(track.state[0] - prior.offset) > p.wrong_row * track.state[2]
+    askew = abs(wrap(track.state[1] - prior.heading)) > math.radians(p.wrong_heading_deg)
+    return bool(aside or askew)
 
 
 def _inverse(matrix: Floats) -> Floats:

@@ -89,3 +89,16 @@ def last_object(x: Floats, params: RowEndParams) -> float | None:
     gaps = np.diff(np.append(ahead, np.inf))
     end = float(ahead[int(np.argmax(gaps > params.gap))])
     return end if end + params.gap <= params.reliable_range else None
+
+
+def seen_to(x: Floats, params: RowEndParams) -> float | None:
+    """Distance up to which the row surely goes on; None if there is too little to say so.
+
+    `x` as in `last_object`. The last but one counts, so that a single false object does not prolong the row.
+    """
+    ahead = np.sort(x[np.isfinite(x)])
+    if len(ahead) < 4:
+        return None
+    gaps = np.diff(np.append(ahead, np.inf))
+    last = int(np.argmax(gaps > params.gap))
+    return float(ahead[last - 1]) if last >= 3 else None

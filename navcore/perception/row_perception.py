@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import StrEnum
 
+import numpy as np
+
 from navcore.geometry.pinhole import PinholeCamera
 from navcore.geometry.se2 import SE2
 from navcore.messages import CameraName, CameraView, DetectedObject
@@ -16,7 +18,7 @@ from navcore.perception.geometric_filter import GeometricFilterParams, geometric
 from navcore.perception.ground_row import GroundRowParams, ground_row
 from navcore.perception.image_lines import driving_camera, image_bisector, looks_back, published_reading
 from navcore.perception.least_squares import LeastSquares
-from navcore.perception.row_end import RowEnd, RowEndParams
+from navcore.perception.row_end import RowEnd, RowEndParams, seen_to
 from navcore.perception.row_lines import GroundRow, RowCue, RowLineFitter, RowLines, RowPrior
 from navcore.perception.row_ransac import Ransac, RansacParams
 from navcore.perception.temporal_ransac import SlopeCheckParams, TemporalRansac
@@ -93,7 +95,7 @@ class RowPerception:
         end = self._row_end(ground, cue.motion)
         bisector = image_bisector(lines.left, lines.right) if lines.left and lines.right else None
         published = published_reading(bisector, self._camera, self._params.look_ahead) if bisector else None
-        row = row_observation(stamp_ns, camera_name, lines, fault or ground, end, published)
+        row = row_observation(stamp_ns, camera_name, lines, fault or ground, end, self._seen_to(ground), published)
         return camera_view(self._camera, objects, corners, lines, ground, bisector, row, latency_ms)
 
     def forget(self) -> None:
@@ -124,3 +126,8 @@ class RowPerception:
         if motion is None:
             self._end.forget()
         return self._end.update(None if isinstance(ground, str) else ground, motion.x if motion else 0.0)
+
+    def _seen_to(self, ground: GroundRow | str) -> float | None:
+        if isinstance(ground, str):
+            return None
+        return seen_to(np.concatenate((ground.left_x, ground.right_x)), self._params.row_end)
