@@ -188,6 +188,7 @@ class Navigator:
             senses=self.senses,
             pilot=self.pilot,
             driving=self.driving,
+            body_width=self.vehicle.width,
         )
 
     def _stuck(self, now_ns: int) -> bool:

@@ -23,6 +23,7 @@ class EventParams:
         gnss_slow_s, gnss_stop_s: age of the position while it is driven on (hazard 27).
         pose_std: dead-reckoned 1-sigma while GNSS is driven on. carried: metres driven on odometry alone.
         entrance: a row that is not seen is not entered: the robot waits so far before its entrance.
+        room: least room between body and plants when the robot passes the entrance.
         row_hold_s: age of the row line while it is driven on (hazard 37). hold_stop_s: longest hold.
         gnss_hold_s: longest wait for GNSS at the end of a row.
         off_path_slow, off_path_stop: distance from the path (hazard 50).
@@ -41,6 +42,7 @@ class EventParams:
     pose_std: float = 0.6
     carried: float = 30.0
     entrance: float = 1.0
+    room: float = 0.12
     row_hold_s: float = 0.42
     hold_stop_s: float = 20.0
     gnss_hold_s: float = 90.0
@@ -58,7 +60,8 @@ class EventFacts:
     """What the table looks at in one tick, `pose_cap` in m/s being what the second opinion on the pose allows.
 
     Ages are None where nothing came; `captured`: the path was reached;
-    `entrance`: metres to that of a row which is driven at without being seen.
+    `entrance`: metres to that of a row which is driven at without being seen; `room`: metres between body and plants
+    on the narrower side of a seen one that is near.
     """
 
     state: RunState
@@ -75,6 +78,7 @@ class EventFacts:
     row_age_s: float | None
     row_reason: str
     entrance: float | None
+    room: float | None
     lateral_error: float | None
     captured: bool
     stuck: bool
@@ -222,6 +226,11 @@ EVENTS: tuple[Event, ...] = (
         lambda f, p: _moving(f) and f.entrance is not None and not f.entrance > p.entrance,
         lambda f: f"The row's entrance is near and the camera does not see the row: {f.row_reason or 'no picture'}. "
         "The robot waits and goes on by itself.",
+    ),
+    _event(
+        "beside_entrance", "STOP",
+        lambda f, p: f.state in MOVING and f.room is not None and not f.room >= p.room,
+        "The robot is not in line with the row's entrance. Drive it back some metres by hand, then resume.",
     ),
     _event(
         "row_unseen", "HOLD",

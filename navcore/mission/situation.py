@@ -11,6 +11,9 @@ from navcore.mission.evidence import NS
 from navcore.mission.pilot import CARRIED, Pilot
 from navcore.mission.senses import Senses
 
+# An entrance is near within this distance, m: no room is left to get in line before it.
+AT_ENTRANCE = 0.5
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Situation:
@@ -19,6 +22,7 @@ class Situation:
     Attributes:
         since_ns: when `state` began. heard_ns: when an operator's page was last heard of.
         driving: what the driver wanted in the last tick.
+        body_width: of the robot, m.
     """
 
     state: RunState
@@ -29,6 +33,7 @@ class Situation:
     senses: Senses
     pilot: Pilot | None
     driving: Driving
+    body_width: float
 
     @property
     def moving(self) -> bool:
@@ -62,6 +67,7 @@ def event_facts(
         row_age_s=pilot.row.age_s(now_ns) if pilot else None,
         row_reason=pilot.row.reason if pilot else "",
         entrance=_unseen_entrance(now),
+        room=_room_at_entrance(now),
         lateral_error=pilot.projection.lateral if pilot else None,
         captured=pilot.captured if pilot else True,
         stuck=stuck,
@@ -80,6 +86,17 @@ def _unseen_entrance(now: Situation) -> float | None:
     pilot = now.pilot
     unseen = pilot is not None and pilot.mode in (NavMode.GNSS_PATH, NavMode.HEADLAND)
     return pilot.to_start() if pilot is not None and unseen and pilot.segment.kind is SegmentKind.ENTRY else None
+
+
+def _room_at_entrance(now: Situation) -> float | None:
+    """Metres between body and plants on the narrower side; None away from an entrance that is driven at on sight."""
+    pilot = now.pilot
+    if pilot is None or pilot.mode is not NavMode.ROW_ENTRY or pilot.row.agreeing is None:
+        return None
+    ahead, seen = pilot.to_start(), pilot.row.agreeing
+    if ahead is None or not 0.0 < ahead <= AT_ENTRANCE or seen.offset is None or seen.width is None:
+        return None
+    return (seen.width - now.body_width) / 2 - abs(seen.offset)
 
 
 def _waits_for_gnss(now: Situation) -> bool:

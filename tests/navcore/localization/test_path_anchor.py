@@ -46,6 +46,16 @@ def test_row_end_corrects_the_place_along_the_row() -> None:
     assert ROW.coordinates(anchor.T_map_odom @ odom).x == pytest.approx(wanted, abs=0.1)
 
 
+def test_a_row_that_goes_on_holds_the_robot_back_and_never_pushes_it() -> None:
+    """Wheels that slip by 7 % tell 4 m too many in a row of 60 m."""
+    anchor, odom = anchored(), SE2(8.0, 3.0, 0.25)
+    x = ROW.coordinates(anchor.T_map_odom @ odom).x
+    anchor.see_no_end(ROW, odom, at_most=x + 2.0)
+    assert ROW.coordinates(anchor.T_map_odom @ odom).x == pytest.approx(x)
+    anchor.see_no_end(ROW, odom, at_most=x - 4.0)
+    assert ROW.coordinates(anchor.T_map_odom @ odom).x == pytest.approx(x - 4.0)
+
+
 @given(st.floats(-2, 2), st.floats(-2, 2), st.floats(-1, 1), st.floats(0.005, 0.1))
 def test_followed_pose_never_jumps(dx: float, dy: float, turn: float, dt: float) -> None:
     anchor, odom = anchored(), SE2(8.0, 3.0, 0.25)

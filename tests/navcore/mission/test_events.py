@@ -22,8 +22,9 @@ CHASSIS = ChassisState(
 WELL = EventFacts(
     state=RunState.DRIVING, mode=NavMode.GNSS_PATH, tick_s=0.02, chassis=CHASSIS, chassis_age_s=0.02,
     system_age_s=0.05, pose_std=0.02, carried=0.0, gnss_age_s=0.2, pose_cap=None, pose_cap_reason="",
-    row_age_s=None, row_reason="", entrance=None, lateral_error=0.02, captured=True, stuck=False, held_s=0.0,
-    arming_s=0.0, link_age_s=0.5, link_loss=LinkLossPolicy.STOP, zone="", start_distance=0.1, waiting_for_gnss=False,
+    row_age_s=None, row_reason="", entrance=None, room=None, lateral_error=0.02, captured=True, stuck=False,
+    held_s=0.0, arming_s=0.0, link_age_s=0.5, link_loss=LinkLossPolicy.STOP, zone="", start_distance=0.1,
+    waiting_for_gnss=False,
 )  # fmt: skip
 FAULTS: dict[str, dict[str, Any]] = {
     "chassis_silent": {"chassis_age_s": 0.25},
@@ -44,6 +45,7 @@ FAULTS: dict[str, dict[str, Any]] = {
     "pose_weak": {"pose_cap": 0.3, "pose_cap_reason": "GNSS is only float."},
     "waiting_for_gnss": {"waiting_for_gnss": True},
     "entrance_unseen": {"entrance": 0.9},
+    "beside_entrance": {"mode": NavMode.ROW_ENTRY, "room": 0.05},
     "row_unseen": {"mode": NavMode.ROW, "row_age_s": 0.6},
     "carried_too_far": {"mode": NavMode.HEADLAND, "carried": 31.0},
     "held_too_long": {"state": RunState.HOLDING, "held_s": 21.0},

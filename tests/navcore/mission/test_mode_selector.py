@@ -54,6 +54,12 @@ def test_row_end_is_driven_on_odometry_until_gnss_is_good() -> None:
     assert mode_after(NavMode.ROW_END, LEFT_ROW) is NavMode.GNSS_PATH
 
 
+def test_a_place_that_slides_back_over_the_entry_does_not_end_the_row_ahead() -> None:
+    """The row's end comes into sight of the next row's entry, and puts the robot back onto the turn for a moment."""
+    back = replace(BEFORE_ROW, segment=SegmentKind.HEADLAND)
+    assert mode_after(NavMode.ROW_ENTRY, back) is NavMode.ROW_ENTRY
+
+
 def test_headland_is_turned_without_gnss_and_leads_into_the_next_row() -> None:
     turning = replace(LEFT_ROW, segment=SegmentKind.HEADLAND, gnss_std=1.5, gnss_streak=0)
     assert mode_after(NavMode.ROW_END, turning) is NavMode.HEADLAND

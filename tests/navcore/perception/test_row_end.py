@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from navcore.perception.row_end import RowEnd, RowEndParams, last_object
+from navcore.perception.row_end import RowEnd, RowEndParams, last_object, seen_to
 from navcore.perception.row_lines import GroundRow
 
 PARAMS = RowEndParams()
@@ -62,3 +62,17 @@ def test_one_gap_in_one_picture_does_not_end_the_row() -> None:
     full, gap = seen(3.0, 4.5, 6.0, 7.5, 9.0), seen(3.0, 4.5)
     told = [row_end.update(gap if i % 3 == 0 else full, 0.0) for i in range(20)]
     assert told == [None] * 20
+
+
+@pytest.mark.parametrize(
+    ("x", "to"),
+    [
+        ((3.0, 4.5, 6.0, 7.5, 9.0), 7.5),  # the last one could be false
+        ((3.0, 4.5, 6.0, 7.5, 13.0, 14.0), 6.0),  # beyond a gap is another block
+        ((3.0, 4.5, 9.0, 10.5), None),
+        ((3.0, 4.5, 6.0), None),
+        ((), None),
+    ],
+)
+def test_a_row_surely_goes_on_as_far_as_plants_stand_without_a_gap(x: tuple[float, ...], to: float | None) -> None:
+    assert seen_to(np.array(x), PARAMS) == to

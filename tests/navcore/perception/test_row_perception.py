@@ -125,6 +125,15 @@ def test_from_outside_the_row_that_is_meant_is_seen_and_not_its_neighbour() -> N
         assert row.offset == pytest.approx(true_offset, abs=0.15)  # m
 
 
+def test_a_line_across_the_lattice_is_no_row() -> None:
+    """Plants stand in line crosswise too; where the row runs is known well enough to tell."""
+    pose = SE2(-5.0, 0.5, math.radians(12.0))
+    for askew_deg in (-14.0, 14.0):
+        prior = RowPrior(offset=-0.5, heading=-pose.yaw + math.radians(askew_deg), std=0.45, width=3.0)
+        row = look(pose, prior=prior, start=0.0, lines=4).row
+        assert row.heading is None or abs(row.heading - prior.heading) <= math.radians(9.0)
+
+
 def test_a_prior_too_vague_to_tell_rows_apart_is_refused() -> None:
     prior = RowPrior(offset=0.0, heading=0.0, std=1.5, width=3.0)
     row = look(SE2(-5.0, 0.0, 0.0), prior=prior, start=0.0, lines=4).row
