@@ -118,6 +118,11 @@ def _chassis(f: EventFacts, test: Callable[[ChassisState], bool]) -> bool:
     return f.chassis is not None and test(f.chassis)
 
 
+def _told(f: EventFacts) -> str:
+    """Why the guard holds the chassis, in its own words."""
+    return f.chassis.guard_reason.rstrip(".") if f.chassis else "it is silent"
+
+
 def _fixed(text: str) -> Callable[[EventFacts], str]:
     return lambda _: text
 
@@ -163,12 +168,12 @@ EVENTS: tuple[Event, ...] = (
     _event(
         "guard_latched", "STOP",
         lambda f, _: _moving(f) and _chassis(f, lambda c: c.guard is not GuardState.ARMED),
-        lambda f: f"The guard has stopped the robot: {f.chassis.guard_reason if f.chassis else 'it is silent'}.",
+        lambda f: f"The guard has stopped the robot: {_told(f)}.",
     ),
     _event(
         "not_arming", "STOP",
         lambda f, p: f.state is RunState.STARTING and f.arming_s > p.arming_s,
-        lambda f: f"The chassis did not accept control: {f.chassis.guard_reason if f.chassis else 'it is silent'}.",
+        lambda f: f"The chassis did not accept control: {_told(f)}.",
     ),
     _event(
         "battery_empty", "NO_ENTRY STOP",

@@ -1429,6 +1429,8 @@ export interface components {
          *         quality: 0 to 1.
          *         width: corridor width, m, None if not known.
          *         end_distance: distance ahead at which the row ends, m, None if no end is in sight.
+         *         seen_to: distance ahead up to which plants stand on its lines without a gap, m: it surely goes on that far;
+         *             None if that cannot be said.
          *         objects: number of trunks and posts that carried the fit.
          *         left_seen, right_seen: this frame's own evidence for each side (False: carried over from earlier frames).
          *         image_offset, image_heading: paper A's reading of the image's bisector: lateral deviation of the centre line
@@ -1472,6 +1474,8 @@ export interface components {
              * @default false
              */
             right_seen: boolean;
+            /** Seen To */
+            seen_to?: number | null;
             /** Stamp Ns */
             stamp_ns: number;
             /** Valid */

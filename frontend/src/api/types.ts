@@ -7,6 +7,7 @@ export type Point = [number, number];
 export type CameraView = S["CameraView"];
 export type Datum = S["Datum"];
 export type GnssFix = S["GnssFix"];
+export type ImportedSite = S["ImportedSite"];
 export type Job = S["Job"];
 export type Lane = S["Lane"];
 export type LinkLossPolicy = S["LinkLossPolicy"];

@@ -11,3 +11,8 @@ export function notifyError(error: unknown): void {
 export function notifyDone(message: string): void {
   notifications.show({ color: "green", message, autoClose: 4000 });
 }
+
+/** Something to read in peace: it stays until it is closed. */
+export function note(title: string, lines: string[]): void {
+  notifications.show({ color: "yellow", title, message: lines.join(" "), autoClose: false });
+}

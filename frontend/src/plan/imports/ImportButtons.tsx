@@ -4,7 +4,8 @@ import { useQueryClient } from "@tanstack/react-query";
 import { useState } from "react";
 import { useLocation } from "wouter";
 
-import type { SiteDocument } from "../../api/types";
+import type { ImportedSite } from "../../api/types";
+import { note } from "../../ui/notify";
 import { GeoJsonButton } from "./GeoJsonButton";
 import { ImportProgress } from "./ImportProgress";
 
@@ -25,11 +26,12 @@ export function PhotoButton({ path, word }: { path: string; word: string }) {
   );
 }
 
-/** Makes a new site of a GeoJSON file. */
+/** Makes a new site of a GeoJSON file, and says what in it was taken otherwise than written. */
 export function SiteFileButton({ word }: { word: string }) {
   const client = useQueryClient();
   const [, go] = useLocation();
-  const show = ({ id }: SiteDocument) => {
+  const show = ({ id, notes }: ImportedSite) => {
+    if (notes.length) note("Imported, with notes", notes);
     void client.invalidateQueries({ queryKey: ["sites"] });
     go(`/plan/${id}`);
   };
