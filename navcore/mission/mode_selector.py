@@ -19,6 +19,7 @@ class ModeSelectorParams:
         streak: agreeing row observations in a row before the camera is trusted, >= 1.
         lost_s: without one for this long before the entrance, the camera is not trusted any more, s.
         end_zone: distance to the row's end at which the robot drives on by odometry, m.
+        seen_end_zone: the same where the camera has seen that end, m.
         again: a row seen to go on for more than this takes the robot back into it, m (hysteresis to `end_zone`).
         clear: distance past the row's end at which GNSS may take over, m.
         gnss_std: position 1-sigma at which GNSS may take over, m.
@@ -28,6 +29,7 @@ class ModeSelectorParams:
     streak: int = 5
     lost_s: float = 1.0
     end_zone: float = 2.5
+    seen_end_zone: float = 3.2
     again: float = 5.0
     clear: float = 1.0
     gnss_std: float = 0.12
@@ -85,10 +87,14 @@ def _lost(f: ModeFacts, p: ModeSelectorParams) -> bool:
 
 
 def _at_end(f: ModeFacts, p: ModeSelectorParams) -> bool:
-    """By the row's end where it is known: the path may slide back over a joint when the row's place is corrected."""
-    if f.to_end is not None:
-        return f.to_end < p.end_zone
-    return f.segment in (SegmentKind.EXIT, SegmentKind.HEADLAND, SegmentKind.ROAD)
+    """By the row's end where it is known: the path may slide back over a joint when the row's place is corrected.
+
+    Near the end the last plants leave the picture, so an end that is seen counts from further away.
+    """
+    if f.to_end is None:
+        return f.segment in (SegmentKind.EXIT, SegmentKind.HEADLAND, SegmentKind.ROAD)
+    seen = f.seen_end is not None and f.seen_end < p.seen_end_zone and f.to_end < p.again
+    return seen or f.to_end < p.end_zone
 
 
 def _row_goes_on(f: ModeFacts, p: ModeSelectorParams) -> bool:

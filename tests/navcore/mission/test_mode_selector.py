@@ -54,6 +54,14 @@ def test_row_end_is_driven_on_odometry_until_gnss_is_good() -> None:
     assert mode_after(NavMode.ROW_END, LEFT_ROW) is NavMode.GNSS_PATH
 
 
+def test_an_end_that_is_seen_counts_before_its_last_plants_leave_the_picture() -> None:
+    near = replace(IN_ROW, to_end=3.0, seen_end=2.9)
+    assert mode_after(NavMode.ROW, near) is NavMode.ROW_END
+    assert mode_after(NavMode.ROW, replace(near, seen_end=None)) is NavMode.ROW
+    gap_mid_row = replace(near, to_end=40.0)
+    assert mode_after(NavMode.ROW, gap_mid_row) is NavMode.ROW
+
+
 def test_a_place_that_slides_back_over_the_entry_does_not_end_the_row_ahead() -> None:
     """The row's end comes into sight of the next row's entry, and puts the robot back onto the turn for a moment."""
     back = replace(BEFORE_ROW, segment=SegmentKind.HEADLAND)
