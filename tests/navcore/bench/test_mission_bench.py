@@ -12,11 +12,17 @@ import pytest
 from navcore.bench.evaluate import Deviation, Evaluation
 from navcore.bench.evaluate_switches import SwitchScore
 from navcore.bench.mission_cases import CaseKind, CaseParams, EyeKind, Farms, MissionCase, Track, mission_cases
-from navcore.bench.mission_drive import DriveLimits, drive_case
+from navcore.bench.mission_drive import DriveLimits, drive_case, on_gnss_alone
 from navcore.bench.mission_figures import mission_figures
 from navcore.bench.mission_result import MissionResult, append_result, missing, read_results
 from navcore.bench.mission_tracks import track_plan, track_points
 from navcore.config import RobotConfig
+from navcore.maps.mission import RowExit
+from navcore.messages import SegmentKind
+from navcore.planning.mission_planner import plan_mission
+from navcore.planning.row_mission import mission_for_row
+from navcore.sim.layouts import tuning_layout
+from navcore.vehicle import PAPER_A
 
 
 def test_the_full_bench_has_a_hundred_missions_on_five_farms_in_three_seasons_and_lights() -> None:
@@ -47,8 +53,16 @@ def test_quick_is_a_small_subset_of_the_full_bench() -> None:
     quick, full = mission_cases(CaseParams(quick=True)), mission_cases(CaseParams())
     assert {c.id for c in quick} <= {c.id for c in full}
     assert len(quick) < 0.2 * len(full)
-    missions = [c for c in quick if c.kind is CaseKind.MISSION]
-    assert len({c.season for c in missions}) == len({c.light for c in missions}) == 3
+    assert {c.kind for c in quick} == {CaseKind.TRACK, CaseKind.MISSION, CaseKind.GNSS_ONLY}
+
+
+def test_gnss_alone_follows_the_same_path_and_need_not_see_a_row() -> None:
+    site = tuning_layout(0)
+    plan = plan_mission(site, mission_for_row(site, site.rows[0].id, RowExit.REVERSE), PAPER_A)
+    alone = on_gnss_alone(plan)
+    assert [s.points for s in alone.segments] == [s.points for s in plan.segments]
+    assert [s.reverse for s in alone.segments] == [s.reverse for s in plan.segments]
+    assert {s.kind for s in alone.segments} == {SegmentKind.ROAD}
 
 
 @pytest.mark.parametrize("track", list(Track))
