@@ -32,6 +32,7 @@ class PathAnchorParams:
         map_heading: 1-sigma of its direction, rad.
         map_along: 1-sigma of where it begins and ends, m.
         gate: a row end that lies further off than so many 1-sigma is not believed.
+        most_slip: largest share of the metres told by the wheels that were not driven.
         growth_along: 1-sigma of the drift along the path, m per square root of m driven (wheel slip).
     """
 
@@ -45,6 +46,7 @@ class PathAnchorParams:
     next_lateral: float = 0.2
     map_heading: float = 0.03
     map_along: float = 0.8
+    most_slip: float = 0.12
     growth_along: float = 0.15
     gate: float = 3.0
 
@@ -80,16 +82,19 @@ class PathAnchor:
         """Forget how well the drawn row is known: the next row is told by the map alone."""
         p = self.params
         self.var_lateral, self.var_heading, self.var_along = p.map_lateral**2, p.map_heading**2, p.map_along**2
+        self._driven = self._held_back = 0.0
 
     def next_row(self) -> None:
         """Another row, reached from the last one: the map knows their distance better than their place."""
         p = self.params
         self.var_lateral = max(self.var_lateral, p.next_lateral**2)
         self.var_heading, self.var_along = p.map_heading**2, p.map_along**2
+        self._driven = self._held_back = 0.0
 
     def drive(self, distance: float) -> None:
         """Let the uncertainty grow over a driven distance, m."""
         p, d = self.params, abs(distance)
+        self._driven += d
         self.var_lateral += p.growth_lateral**2 * d
         self.var_heading += p.growth_heading**2 * d
         self.var_along += p.growth_along**2 * d
@@ -124,11 +129,14 @@ class PathAnchor:
     def see_no_end(self, row: RowLine, T_odom_drive: SE2, at_most: float) -> None:
         """The row goes on, so the driving frame's row coordinate x is no larger than `at_most`, m.
 
-        Wheels that slip tell more metres than were driven: 66 m on bare soil become 70.
+        Wheels that slip tell more metres than were driven: 66 m on bare soil become 70. More than wheels can slip is
+        not believed, or something that stands beyond the row could hold the robot for ever.
         """
         at = row.coordinates(self.T_map_odom @ T_odom_drive)
-        if at.x > at_most:
-            self._set(row.pose(SE2(at_most, at.y, at.yaw)), T_odom_drive)
+        back = min(at.x - at_most, self.params.most_slip * self._driven - self._held_back)
+        if back > 0.0:
+            self._held_back += back
+            self._set(row.pose(SE2(at.x - back, at.y, at.yaw)), T_odom_drive)
 
     def _set(self, T_map_drive: SE2, T_odom_drive: SE2) -> None:
         self.T_map_odom = T_map_drive @ T_odom_drive.inverse()

@@ -39,6 +39,7 @@ class PilotParams:
         search: half width of the search for the place on the path, m.
         look_out: the camera is used from this far before a row's entry segment, m.
         end_std: 1-sigma of the row end's distance as the camera sees it, m.
+        seen_range: plants further away say nothing sure about where the row ends, m.
         seen_share: share of the distance up to which the row is seen to go on that is believed: a camera that pitches
             by half a degree sees 10 m as 11.
     """
@@ -48,6 +49,7 @@ class PilotParams:
     search: float = 3.0
     look_out: float = 4.0
     end_std: float = 0.4
+    seen_range: float = 7.0
     seen_share: float = 0.9
     anchor: PathAnchorParams = field(default_factory=PathAnchorParams)
     row: RowEvidenceParams = field(default_factory=RowEvidenceParams)
@@ -164,7 +166,8 @@ class Pilot:
         if seen.end_distance is not None:
             self.anchor.see_along(row, T_odom_drive, length - seen.end_distance, self.params.end_std)
         elif seen.seen_to is not None:
-            self.anchor.see_no_end(row, T_odom_drive, length - self.params.seen_share * seen.seen_to)
+            sure = self.params.seen_share * min(seen.seen_to, self.params.seen_range)
+            self.anchor.see_no_end(row, T_odom_drive, length - sure)
 
     def _expected(self, T_odom_drive: SE2) -> tuple[SE2, ...]:
         """Poses of the driving frame at a capture: by the anchor, and before the entrance by good GNSS too."""

@@ -49,11 +49,21 @@ def test_row_end_corrects_the_place_along_the_row() -> None:
 def test_a_row_that_goes_on_holds_the_robot_back_and_never_pushes_it() -> None:
     """Wheels that slip by 7 % tell 4 m too many in a row of 60 m."""
     anchor, odom = anchored(), SE2(8.0, 3.0, 0.25)
+    anchor.drive(60.0)
     x = ROW.coordinates(anchor.T_map_odom @ odom).x
     anchor.see_no_end(ROW, odom, at_most=x + 2.0)
     assert ROW.coordinates(anchor.T_map_odom @ odom).x == pytest.approx(x)
     anchor.see_no_end(ROW, odom, at_most=x - 4.0)
     assert ROW.coordinates(anchor.T_map_odom @ odom).x == pytest.approx(x - 4.0)
+
+
+def test_what_stands_beyond_the_row_cannot_hold_the_robot_for_ever() -> None:
+    anchor, odom = anchored(), SE2(8.0, 3.0, 0.25)
+    anchor.drive(50.0)
+    x = ROW.coordinates(anchor.T_map_odom @ odom).x
+    for _ in range(100):
+        anchor.see_no_end(ROW, odom, at_most=x - 30.0)
+    assert ROW.coordinates(anchor.T_map_odom @ odom).x == pytest.approx(x - 6.0)  # m: 12 % of 50
 
 
 @given(st.floats(-2, 2), st.floats(-2, 2), st.floats(-1, 1), st.floats(0.005, 0.1))
