@@ -195,7 +195,7 @@ class Navigator:
         if self.pilot is None or self.state is not RunState.DRIVING:
             self.progress.reset()
             return False
-        return self.progress.stuck(now_ns, self.pilot.route.driven(self.pilot.place))
+        return self.progress.stuck(now_ns, self.pilot.wheel_way)
 
     def _judge(self, at: Position, tick_s: float, request: RequestKind | None) -> None:
         """Look all events up, and let their effects change the mission's state."""

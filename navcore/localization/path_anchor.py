@@ -69,13 +69,17 @@ class RowLine:
 
 
 class PathAnchor:
-    """Ties `map` to `odom` by whichever source the robot drives on. Poses are of the driving frame."""
+    """Ties `map` to `odom` by whichever source the robot drives on. Poses are of the driving frame.
+
+    `put_back` are the metres by which rows have put the robot back in all: what slipping wheels told too many.
+    """
 
     def __init__(self, T_map_odom: SE2, params: PathAnchorParams) -> None:
         self.params = params
         self.T_map_odom = T_map_odom
         self.followed = T_map_odom
         self.var_lateral = self.var_heading = self.var_along = 0.0
+        self.put_back = 0.0
         self.unsure()
 
     def unsure(self) -> None:
@@ -124,7 +128,7 @@ class PathAnchor:
             return
         gain = self.var_along / (self.var_along + std**2)
         self.var_along *= 1.0 - gain
-        self._set(row.pose(SE2(at.x + gain * (along - at.x), at.y, at.yaw)), T_odom_drive)
+        self._shift(row, T_odom_drive, gain * (along - at.x))
 
     def see_no_end(self, row: RowLine, T_odom_drive: SE2, at_most: float) -> None:
         """The row goes on, so the driving frame's row coordinate x is no larger than `at_most`, m.
@@ -136,7 +140,13 @@ class PathAnchor:
         back = min(at.x - at_most, self.params.most_slip * self._driven - self._held_back)
         if back > 0.0:
             self._held_back += back
-            self._set(row.pose(SE2(at.x - back, at.y, at.yaw)), T_odom_drive)
+            self._shift(row, T_odom_drive, -back)
+
+    def _shift(self, row: RowLine, T_odom_drive: SE2, ahead: float) -> None:
+        """Move the place along the row."""
+        self.put_back += max(-ahead, 0.0)
+        at = row.coordinates(self.T_map_odom @ T_odom_drive)
+        self._set(row.pose(SE2(at.x + ahead, at.y, at.yaw)), T_odom_drive)
 
     def _set(self, T_map_drive: SE2, T_odom_drive: SE2) -> None:
         self.T_map_odom = T_map_drive @ T_odom_drive.inverse()

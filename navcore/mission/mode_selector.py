@@ -29,7 +29,7 @@ class ModeSelectorParams:
     streak: int = 5
     lost_s: float = 1.0
     end_zone: float = 2.5
-    seen_end_zone: float = 3.2
+    seen_end_zone: float = 4.0
     again: float = 5.0
     clear: float = 1.0
     gnss_std: float = 0.12

@@ -114,6 +114,11 @@ class Pilot:
         """Metres to the end of the leg, by the path."""
         return self.leg.length - self.place.s
 
+    @property
+    def wheel_way(self) -> float:
+        """Metres along the mission, with those by which a row that goes on has put the robot back."""
+        return self.route.driven(self.place) + self.anchor.put_back
+
     def advance(self, at: Position, row_seen: tuple[tuple[RowObservation, SE2], ...], dt: float) -> ModeSwitch | None:
         """Take one tick; the mode switch it brought, if any.
 
