@@ -28,6 +28,7 @@ from navcore.messages import (
     RowObservation,
     RunState,
 )
+from navcore.mission.camera_orders import camera_request
 from navcore.mission.driver import Driver, DriverParams, Driving
 from navcore.mission.events import Event, EventParams, active_events, effects_of
 from navcore.mission.evidence import NS, GnssEvidence, GnssEvidenceParams
@@ -229,7 +230,7 @@ class Navigator:
             command=self._orders.command(now_ns, self.state, self.driving, self.senses),
             status=nav_status(self._situation(), now_ns, self._events),
             switch=switch,
-            camera=self.pilot.camera_request(at) if self.pilot and self.state in UNDER_WAY else None,
+            camera=camera_request(self.pilot, at) if self.pilot and self.state in UNDER_WAY else None,
             guard_request=self._orders.request(self.state, request, self.senses),
             replies=replies,
         )

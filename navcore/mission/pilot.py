@@ -5,13 +5,11 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 
-from navcore.geometry.angles import wrap
 from navcore.geometry.polyline import Projection
 from navcore.geometry.se2 import SE2
 from navcore.localization.path_anchor import HALF_TURN, PathAnchor, PathAnchorParams, RowLine
 from navcore.messages import (
     CameraName,
-    CameraRequest,
     MissionPlan,
     ModeSwitch,
     NavMode,
@@ -81,6 +79,11 @@ class Position:
         return self.gnss_std is not None and self.gnss_std <= params.gnss_std and self.gnss_streak > 0
 
 
+def row_length(segment: PathSegment) -> float:
+    """Of the row that a segment belongs to, as drawn, m."""
+    return math.dist(segment.row_start or (0.0, 0.0), segment.row_end or (0.0, 0.0))
+
+
 class Pilot:
     """Follows one plan from its first leg to its last."""
 
@@ -95,7 +98,7 @@ class Pilot:
         self._comes_from_gnss = True
         self._at = start
         self.place = Place(0, 0.0)
-        self.pose = self._drive(T_map_base)
+        self.pose = self.driving_pose(T_map_base)
         self.projection = self._project(near_s=None)
         self.mode, self.mode_reason = first_mode(self._facts(start))
 
@@ -126,10 +129,10 @@ class Pilot:
         """
         self._carry(at)
         for seen, T_odom_base in row_seen:
-            self._see(seen, self._drive(T_odom_base))
+            self._see(seen, self.driving_pose(T_odom_base))
         if self.mode is NavMode.GNSS_PATH and at.T_map_base is not None:
             self.anchor.follow(at.T_map_base @ at.T_odom_base.inverse())
-        self.pose = self.anchor.slide(self._drive(at.T_odom_base), dt, self.projection.lateral)
+        self.pose = self.anchor.slide(self.driving_pose(at.T_odom_base), dt, self.projection.lateral)
         self.projection = self._project(self.place.s)
         self.captured = self.captured or abs(self.projection.lateral) <= self.params.capture
         self.place = Place(self.place.leg, self.projection.s)
@@ -141,7 +144,7 @@ class Pilot:
         self.anchor.jump()
         self.captured = False
 
-    def _drive(self, T_x_base: SE2) -> SE2:
+    def driving_pose(self, T_x_base: SE2) -> SE2:
         """Pose of the driving frame: turned by pi on a leg that is driven backwards."""
         return T_x_base @ HALF_TURN if self.leg.reverse else T_x_base
 
@@ -154,8 +157,8 @@ class Pilot:
 
     def _see(self, seen: RowObservation, T_odom_drive: SE2) -> None:
         """Judge what the camera saw by the row that is meant, and correct the anchor while driving on it."""
-        row, segment = self.row_line(), self._row_segment()
-        if row is None or segment is None or seen.camera is not self._camera():
+        row, segment = self.row_line(), self.row_segment()
+        if row is None or segment is None or seen.camera is not self.camera():
             return
         expected = self._expected(T_odom_drive)
         if not self.row.judge(seen, row, expected, segment.corridor_width or 3.0):
@@ -164,7 +167,7 @@ class Pilot:
             stds = seen.offset_std or 0.05, seen.heading_std or 0.02
             self.anchor.see_row(row, T_odom_drive, seen.offset, seen.heading, *stds)
         if self.mode in ALONG_ROW:
-            self._see_along(seen, row, T_odom_drive, self._row_length(segment))
+            self._see_along(seen, row, T_odom_drive, row_length(segment))
 
     def _see_along(self, seen: RowObservation, row: RowLine, T_odom_drive: SE2, length: float) -> None:
         """Correct the place along the row by its end, or by its having none yet."""
@@ -193,7 +196,7 @@ class Pilot:
             self.arrived = True
             return
         self.place = Place(self.place.leg + 1, 0.0)
-        self.pose = self.anchor.followed @ self._drive(at.T_odom_base)
+        self.pose = self.anchor.followed @ self.driving_pose(at.T_odom_base)
         self.projection = self._project(near_s=0.0)
         self.row.forget()
 
@@ -228,7 +231,7 @@ class Pilot:
             self.row.forget()
             self._comes_from_gnss = False
 
-    def _row_segment(self) -> PathSegment | None:
+    def row_segment(self) -> PathSegment | None:
         """The segment whose row matters here: this one's, or the next entry's when it is near."""
         here = self.segment
         if here.kind in ROW_SEGMENTS and here.row_start is not None:
@@ -239,7 +242,7 @@ class Pilot:
 
     def row_line(self) -> RowLine | None:
         """Centre line of the row that matters here, as drawn."""
-        segment = self._row_segment()
+        segment = self.row_segment()
         if segment is None or segment.row_start is None or segment.row_end is None:
             return None
         (x0, y0), (x1, y1) = segment.row_start, segment.row_end
@@ -250,18 +253,14 @@ class Pilot:
         row = self.row_line()
         return -row.coordinates(self.pose).x if row else None
 
-    @staticmethod
-    def _row_length(segment: PathSegment) -> float:
-        return math.dist(segment.row_start or (0.0, 0.0), segment.row_end or (0.0, 0.0))
-
     def _facts(self, at: Position) -> ModeFacts:
-        row, segment = self.row_line(), self._row_segment()
+        row, segment = self.row_line(), self.row_segment()
         along = row.coordinates(self.pose).x if row else None
         seen = self.row.agreeing
         return ModeFacts(
             segment=self.segment.kind,
             to_start=-along if along is not None else None,
-            to_end=self._row_length(segment) - along if segment is not None and along is not None else None,
+            to_end=row_length(segment) - along if segment is not None and along is not None else None,
             row_streak=self.row.streak,
             row_age_s=self.row.age_s(at.now_ns),
             seen_end=seen.end_distance if seen else None,
@@ -269,28 +268,6 @@ class Pilot:
             gnss_streak=at.gnss_streak,
         )
 
-    def _camera(self) -> CameraName:
+    def camera(self) -> CameraName:
+        """The one that looks the way the leg is driven."""
         return CameraName.REAR if self.leg.reverse else CameraName.FRONT
-
-    def camera_request(self, at: Position) -> CameraRequest | None:
-        """What the row worker should look at; None where no row matters."""
-        row, segment = self.row_line(), self._row_segment()
-        if row is None or segment is None:
-            return None
-        turned = -1.0 if self.leg.reverse else 1.0
-        seen_from = row.coordinates(self.anchor.T_map_odom @ self._drive(at.T_odom_base))
-        return CameraRequest(
-            stamp_ns=at.now_ns,
-            camera=self._camera(),
-            odom_x=at.T_odom_base.x,
-            odom_y=at.T_odom_base.y,
-            odom_yaw=at.T_odom_base.yaw,
-            offset=-seen_from.y,
-            heading=wrap(-seen_from.yaw),
-            offset_std=math.sqrt(self.anchor.var_lateral),
-            width=segment.corridor_width,
-            to_start=-seen_from.x,
-            to_end=self._row_length(segment) - seen_from.x,
-            roll=turned * at.lean[0],
-            pitch=turned * at.lean[1],
-        )
