@@ -37,7 +37,7 @@ class PathAnchorParams:
     """
 
     slide: float = 0.15
-    slide_along: float = 0.5
+    slide_along: float = 0.3
     patience: float = 0.20
     turn: float = 0.10
     growth_lateral: float = 0.02
@@ -160,7 +160,9 @@ class PathAnchor:
         off = at.inverse() @ self.T_map_odom @ T_odom_drive
         p = self.params
         aside = p.slide * self._patience(off.y, lateral_error) * dt
-        step = SE2(_within(off.x, p.slide_along * dt), _within(off.y, aside), _within(off.yaw, p.turn * dt))
+        # In a bend what slides along the path becomes an error to the side.
+        ahead = p.slide_along * max(1.0 - abs(lateral_error) / p.patience, 0.0) * dt
+        step = SE2(_within(off.x, ahead), _within(off.y, aside), _within(off.yaw, p.turn * dt))
         pose = at @ step
         self.followed = pose @ T_odom_drive.inverse()
         return pose
