@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from navcore.bench.loop_browsers import OperatorBrowsers
-from navcore.bench.loop_bus import BusWitness, MotionFrame, first_zero_after
+from navcore.bench.loop_bus import BusWitness, MotionFrame, first_zero_after, was_moving
 from navcore.bench.loop_import import ImportLoad
 from navcore.bench.loop_log import LoopRecord, part, read_record
 from navcore.bench.loop_station import LoopStation, give_up_priority, has_priority
@@ -22,7 +22,7 @@ from navcore.topics import NAV_STATUS
 from navcore.transport.codec import decode, encode
 from navcore.transport.pubsub import Subscriber
 
-PROMPT = ("guard", "navigator", "world")
+PROMPT = ("guard", "navigator", "world", "row_worker")
 MS = 1_000_000
 START_S, STATE_S = 60.0, 30.0
 STAND_S, MOVE_S, POLL_S = 1.0, 5.0, 0.1
@@ -156,11 +156,13 @@ class LoopBench:
         missed = 0
         while time.monotonic_ns() - from_ns < self._params.phase_s * 1e9:
             self._pause(self._params.drive_s)
-            if self._moves(witness):
-                took = self._stop(witness)
-                missed += took is None
-                stops += [] if took is None else [took]
-                self._tell(f"{'with' if real_time else 'without'} SCHED_FIFO, stop {len(stops)}: {took} s")
+            took = self._stop(witness) if self._moves(witness) else None
+            if took is not None:
+                missed += math.isinf(took)
+                stops += [] if math.isinf(took) else [took]
+                self._tell(
+                    f"{'with' if real_time else 'without'} SCHED_FIFO, stop {len(stops) + missed}: {took:.3f} s"
+                )
             self._go_on()
         return Stretch(
             real_time=real_time, from_ns=from_ns, to_ns=time.monotonic_ns(), stops_s=tuple(stops), missed=missed
@@ -177,15 +179,18 @@ class LoopBench:
         return False
 
     def _stop(self, witness: BusWitness) -> float | None:
-        """From the press until the zero is at the chassis, s; None if none came."""
+        """From the press until the zero is at the chassis, s; infinite if it never came, None if the robot stood."""
         asked_ns = time.monotonic_ns()
         if self._browsers is not None:
             asked_ns = self._browsers.click_stop()
         else:
             self._station.post("/api/runs/current/stop")
         self._pause(ZERO_S)
-        zero_ns = first_zero_after(witness.frames(), asked_ns)
-        return None if zero_ns is None else (zero_ns - asked_ns) * 1e-9
+        frames = witness.frames()
+        if not was_moving(frames, asked_ns):
+            return None
+        zero_ns = first_zero_after(frames, asked_ns)
+        return math.inf if zero_ns is None else (zero_ns - asked_ns) * 1e-9
 
     def _go_on(self) -> None:
         """Resume after a stop; begin anew after the mission's end."""

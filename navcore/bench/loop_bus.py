@@ -61,9 +61,12 @@ class BusWitness:
                     self._frames.append(MotionFrame(stamp_ns, *motion))
 
 
-def first_zero_after(frames: list[MotionFrame], click_ns: int) -> int | None:
-    """When the chassis first got a zero after the click, None if the robot was already told to stand, or never."""
+def was_moving(frames: list[MotionFrame], click_ns: int) -> bool:
+    """Whether the last frame before the click told the chassis to drive."""
     before = [frame for frame in frames if frame.stamp_ns < click_ns]
-    if not before or before[-1].is_zero:
-        return None
+    return bool(before) and not before[-1].is_zero
+
+
+def first_zero_after(frames: list[MotionFrame], click_ns: int) -> int | None:
+    """When the chassis first got a zero after the click, None if never."""
     return next((frame.stamp_ns for frame in frames if frame.stamp_ns >= click_ns and frame.is_zero), None)

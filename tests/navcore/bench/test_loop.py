@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from navcore.bench.loop_bus import MotionFrame, first_zero_after
+from navcore.bench.loop_bus import MotionFrame, first_zero_after, was_moving
 from navcore.bench.loop_log import TICK_NS, LoopRecord, exposure_to_frame, lateness
 
 MS = 1_000_000
@@ -47,5 +47,7 @@ def test_a_picture_whose_command_was_refused_counts_for_none() -> None:
 def test_only_a_stop_of_a_moving_robot_is_measured() -> None:
     driving, zero = MotionFrame(0, 0.5, 0.1), MotionFrame(30 * MS, 0.0, 0.0)
     assert first_zero_after([driving, zero], 10 * MS) == 30 * MS
-    assert first_zero_after([zero, MotionFrame(50 * MS, 0.0, 0.0)], 40 * MS) is None
+    assert was_moving([driving, zero], 10 * MS)
+    assert not was_moving([zero, MotionFrame(50 * MS, 0.0, 0.0)], 40 * MS)
+    assert not was_moving([driving], 0)
     assert first_zero_after([driving], 10 * MS) is None
