@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import itertools
 import math
+from collections.abc import Iterator
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import cv2
 import pytest
@@ -43,6 +45,15 @@ def video(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return path
 
 
+@pytest.fixture
+def endpoints() -> Iterator[Endpoints]:
+    """In a directory whose name is short: socket paths end at 107 bytes."""
+    with TemporaryDirectory(prefix="rp-") as directory:
+        found = Endpoints(Path(directory))
+        found.prepare()
+        yield found
+
+
 def views(worker: RowWorker, subscriber: Subscriber, wanted: int) -> list[tuple[CameraView, bytes]]:
     seen: list[tuple[CameraView, bytes]] = []
     for _ in range(40 * wanted):
@@ -54,9 +65,7 @@ def views(worker: RowWorker, subscriber: Subscriber, wanted: int) -> list[tuple[
     return seen
 
 
-def test_a_real_cameras_pictures_are_looked_at_and_shown(video: Path, tmp_path: Path) -> None:
-    endpoints = Endpoints(tmp_path)
-    endpoints.prepare()
+def test_a_real_cameras_pictures_are_looked_at_and_shown(video: Path, endpoints: Endpoints) -> None:
     config = RobotConfig(front_camera=CameraParams(source=str(video)))
     with Subscriber(endpoints, (CAMERA_VIEW.name,)) as subscriber:
         worker = RowWorker(endpoints, RealCameras(config), config)
@@ -69,10 +78,8 @@ def test_a_real_cameras_pictures_are_looked_at_and_shown(video: Path, tmp_path: 
 
 
 def test_a_camera_that_is_not_set_shows_nothing_and_says_so(
-    tmp_path: Path, capfd: pytest.CaptureFixture[str]
+    endpoints: Endpoints, capfd: pytest.CaptureFixture[str]
 ) -> None:  # fmt: skip
-    endpoints = Endpoints(tmp_path)
-    endpoints.prepare()
     worker = RowWorker(endpoints, RealCameras(RobotConfig()), RobotConfig())
     for _ in range(8):
         worker.look()
