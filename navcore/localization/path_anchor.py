@@ -71,7 +71,7 @@ class RowLine:
 class PathAnchor:
     """Ties `map` to `odom` by whichever source the robot drives on. Poses are of the driving frame.
 
-    `put_back` are the metres by which rows have put the robot back in all: what slipping wheels told too many.
+    `put_back` are the metres by which rows have put the robot back, less those ahead: what the wheels told too many.
     """
 
     def __init__(self, T_map_odom: SE2, params: PathAnchorParams) -> None:
@@ -144,7 +144,7 @@ class PathAnchor:
 
     def _shift(self, row: RowLine, T_odom_drive: SE2, ahead: float) -> None:
         """Move the place along the row."""
-        self.put_back += max(-ahead, 0.0)
+        self.put_back -= ahead
         at = row.coordinates(self.T_map_odom @ T_odom_drive)
         self._set(row.pose(SE2(at.x + ahead, at.y, at.yaw)), T_odom_drive)
 

@@ -57,6 +57,16 @@ def test_a_row_that_goes_on_holds_the_robot_back_and_never_pushes_it() -> None:
     assert ROW.coordinates(anchor.T_map_odom @ odom).x == pytest.approx(x - 4.0)
 
 
+def test_ends_seen_now_nearer_now_further_add_up_to_no_way_driven() -> None:
+    """A robot that does not get on must not seem to, by the noise of what it sees."""
+    anchor, odom = anchored(), SE2(8.0, 3.0, 0.25)
+    x = ROW.coordinates(anchor.T_map_odom @ odom).x
+    for i in range(400):
+        anchor.drive(0.001)
+        anchor.see_along(ROW, odom, along=x + (0.2 if i % 2 else -0.2), std=0.4)
+    assert abs(anchor.put_back) < 0.2  # m
+
+
 def test_what_stands_beyond_the_row_cannot_hold_the_robot_for_ever() -> None:
     anchor, odom = anchored(), SE2(8.0, 3.0, 0.25)
     anchor.drive(50.0)
