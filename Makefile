@@ -11,7 +11,8 @@ run: setup frontend compiled
 	$(BIN)/rowpilot run
 
 test: check browser compiled
-	$(BIN)/pytest -n 2 --dist loadfile
+	$(BIN)/pytest -n 2 --dist loadfile -m "not realtime"
+	$(BIN)/pytest -m realtime
 
 check: setup frontend
 	$(BIN)/ruff check .

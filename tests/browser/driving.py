@@ -44,16 +44,20 @@ def start_mission(page: Page) -> None:
     state_is(page, "Ready")
     page.get_by_role("button", name="Start …").click()
     hold = page.get_by_role("button", name="Hold to start")
-    wait_until(page, "the mission is under way", lambda: hold.count() == 0 or _hold(page, hold), START_S)
+    wait_until(page, "the mission is under way", lambda: _is_driving(page) or _hold(page, hold), START_S)
     state_is(page, "Driving")
+
+
+def _is_driving(page: Page) -> bool:
+    return "Driving" in page.get_by_role("status").first.inner_text()
 
 
 def _hold(page: Page, hold: Locator) -> bool:
     """One try. On a busy machine old data may break it off, and then the operator presses again."""
-    if hold.is_enabled():
+    if hold.count() and hold.is_enabled():
         hold.click(delay=HOLD_MS)
         page.wait_for_timeout(SETTLE_MS)
-    return hold.count() == 0
+    return _is_driving(page)
 
 
 def stop(page: Page) -> None:

@@ -13,7 +13,7 @@ from tests.browser import driving
 from tests.browser.running_station import RunningStation
 from tests.browser.witness import Witness
 
-pytestmark = [pytest.mark.browser, pytest.mark.slow]
+pytestmark = [pytest.mark.browser, pytest.mark.realtime]
 
 READY_MISSION = "1. Row A3, back out in reverse"
 STANDING = 0.01  # m/s

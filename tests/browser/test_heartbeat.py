@@ -10,7 +10,7 @@ from playwright.sync_api import APIRequestContext, Page
 from tests.browser import driving
 from tests.browser.running_station import RunningStation
 
-pytestmark = [pytest.mark.browser, pytest.mark.slow]
+pytestmark = [pytest.mark.browser, pytest.mark.realtime]
 
 SLOW_S = (
     3.5  # longer than the station's patience with a heartbeat (2 s), shorter than the worker's with the page (5 s)

@@ -13,7 +13,7 @@ from tests.browser import drawing, driving
 from tests.browser.running_station import RunningStation
 from tests.browser.witness import Witness
 
-pytestmark = [pytest.mark.browser, pytest.mark.slow]
+pytestmark = [pytest.mark.browser, pytest.mark.realtime]
 
 PHOTO = "PNOA_CYL_2020_25cm_OF_etrsc_rgb_hu30_h05__0398_3-1_0.tiff"
 # Pixels (column, row) of the picture: red-roofed shed, the dirt road and the track to the dense block of rows.

@@ -11,7 +11,7 @@ from tests.browser import driving
 from tests.browser.running_station import RunningStation
 from tests.browser.witness import Witness
 
-pytestmark = [pytest.mark.browser, pytest.mark.slow]
+pytestmark = [pytest.mark.browser, pytest.mark.realtime]
 
 FLAT = 10  # colours of a picture with nothing in it
 

@@ -17,6 +17,8 @@ from navcore.chassis.protocol import GuardRequest, GuardState
 from navcore.transport.stop_client import StopClient
 from tests.navcore.chassis.guard_rig import DEADLINE_S, MS, STOPPED, ChassisModel, Listener, Rig, wait_for
 
+pytestmark = pytest.mark.realtime
+
 INTRUDER = """
 import socket, sys, time
 from navcore.chassis.protocol import *

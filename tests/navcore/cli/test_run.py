@@ -17,6 +17,8 @@ from typer.testing import CliRunner
 
 from navcore.cli import app
 
+pytestmark = pytest.mark.realtime
+
 DEADLINE_S = 60.0
 ADDRESS = re.compile(r"http://127\.0\.0\.1:\d+/enter\?token=\S+")
 

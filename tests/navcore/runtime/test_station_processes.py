@@ -31,6 +31,8 @@ from navcore.transport.request import Requester
 from navcore.transport.stop_client import StopClient
 from navcore.vehicle import PAPER_A
 
+pytestmark = pytest.mark.realtime
+
 DEADLINE_S = 60.0
 NAMES = ("world", "guard", "recorder", "navigator")
 
