@@ -54,26 +54,33 @@ def decode(peaks: Singles, boxes: Singles, stride: int, params: DecodingParams) 
 def suppress(boxes: Floats, params: DecodingParams) -> list[int]:
     """Indices of the boxes (N, 4), best first, that are not a double of a better one; of whatever class."""
     kept: list[int] = []
-    for i in range(len(boxes)):
-        if not kept or not np.any(_same(boxes[kept], boxes[i], params)):
+    dropped = np.zeros(len(boxes), dtype=np.bool_)
+    for i, doubles in enumerate(_same(boxes[:, None], boxes, params)):
+        if not dropped[i]:
             kept.append(i)
+            dropped |= doubles
     return kept
 
 
-def _same(others: Floats, box: Floats, params: DecodingParams) -> NDArray[np.bool_]:
-    wider = np.maximum(others[:, 2] - others[:, 0], box[2] - box[0])
-    du = (others[:, 0] + others[:, 2] - box[0] - box[2]) / 2
-    feet = np.hypot(du, others[:, 3] - box[3]) < np.maximum(params.foot_distance_px, wider / 2)
-    return np.asarray(feet | (overlap(others, box) > params.max_overlap))
+def _same(others: Floats, boxes: Floats, params: DecodingParams) -> NDArray[np.bool_]:
+    """Whether two boxes are one object; (..., 4) each, broadcast."""
+    wider = np.maximum(others[..., 2] - others[..., 0], boxes[..., 2] - boxes[..., 0])
+    du = (others[..., 0] + others[..., 2] - boxes[..., 0] - boxes[..., 2]) / 2
+    feet = np.hypot(du, others[..., 3] - boxes[..., 3]) < np.maximum(params.foot_distance_px, wider / 2)
+    return np.asarray(feet | (overlap(others, boxes) > params.max_overlap))
 
 
-def overlap(boxes: Floats, box: Floats) -> Floats:
-    """Intersection over union of boxes (N, 4) with one box (4,); shape (N,)."""
-    width = np.minimum(boxes[:, 2], box[2]) - np.maximum(boxes[:, 0], box[0])
-    height = np.minimum(boxes[:, 3], box[3]) - np.maximum(boxes[:, 1], box[1])
+def overlap(boxes: Floats, others: Floats) -> Floats:
+    """Intersection over union of boxes with others; (..., 4) each, broadcast."""
+    width = np.minimum(boxes[..., 2], others[..., 2]) - np.maximum(boxes[..., 0], others[..., 0])
+    height = np.minimum(boxes[..., 3], others[..., 3]) - np.maximum(boxes[..., 1], others[..., 1])
     common = np.maximum(width, 0.0) * np.maximum(height, 0.0)
-    area = (boxes[:, 2] - boxes[:, 0]) * (boxes[:, 3] - boxes[:, 1]) + (box[2] - box[0]) * (box[3] - box[1])
+    area = _area(boxes) + _area(others)
     return np.asarray(common / np.maximum(area - common, 1e-9))
+
+
+def _area(boxes: Floats) -> Floats:
+    return np.asarray((boxes[..., 2] - boxes[..., 0]) * (boxes[..., 3] - boxes[..., 1]))
 
 
 def detected_objects(
