@@ -46,14 +46,26 @@ def neighbours(plan: MissionPlan, segment: int) -> tuple[str | None, str | None]
 
 
 def onto_drawn(true: TrueRow, drawn: TrueRow, points: Floats) -> Floats:
-    """True positions (N, 2) as they lie relative to the drawn row, m: middle on middle, axis on axis."""
-    (tx, ty, true_yaw), (dx, dy, drawn_yaw) = _middle(true), _middle(drawn)
-    turn = math.remainder(drawn_yaw - true_yaw, math.pi)
+    """True positions (N, 2) as they lie relative to the drawn row, m: axis on axis, and end on end.
+
+    The end that is nearer counts: that is where the row is left or entered, and drawn rows are too long or too short.
+    """
+    turn = math.remainder(_yaw(drawn) - _yaw(true), math.pi)
+    turned_round = abs(math.remainder(_yaw(drawn) - _yaw(true), math.tau)) > math.pi / 2
+    drawn_start, drawn_end = (drawn.end, drawn.start) if turned_round else (drawn.start, drawn.end)
+    at_start = _tied(points, np.asarray(true.start), np.asarray(drawn_start), turn)
+    at_end = _tied(points, np.asarray(true.end), np.asarray(drawn_end), turn)
+    nearer = np.hypot(*(points - true.start).T) <= np.hypot(*(points - true.end).T)
+    return np.where(nearer[:, None], at_start, at_end)
+
+
+def _tied(points: Floats, true: Floats, drawn: Floats, turn: float) -> Floats:
+    """Positions (N, 2) turned and moved such that one true point comes to lie on its drawing."""
     c, s = math.cos(turn), math.sin(turn)
-    x, y = points[:, 0] - tx, points[:, 1] - ty
-    return np.column_stack((dx + c * x - s * y, dy + s * x + c * y))
+    off = points - true
+    return drawn + np.column_stack((c * off[:, 0] - s * off[:, 1], s * off[:, 0] + c * off[:, 1]))
 
 
-def _middle(row: TrueRow) -> tuple[float, float, float]:
+def _yaw(row: TrueRow) -> float:
     (x0, y0), (x1, y1) = row.start, row.end
-    return (x0 + x1) / 2, (y0 + y1) / 2, math.atan2(y1 - y0, x1 - x0)
+    return math.atan2(y1 - y0, x1 - x0)

@@ -55,7 +55,12 @@ def test_without_a_map_error_the_band_is_the_path(record: RunRecord) -> None:
 def test_a_row_is_laid_onto_its_drawing_whichever_way_it_was_drawn() -> None:
     backwards = replace(DRAWN, start=DRAWN.end, end=DRAWN.start)
     for drawn in (DRAWN, backwards):
-        assert onto_drawn(TRUE, drawn, np.array([(40.1, LEFT)])) == pytest.approx(np.array([(40.0, 0.0)]), abs=0.01)
+        assert onto_drawn(TRUE, drawn, np.array([(20.3, LEFT)])) == pytest.approx(np.array([(20.0, 0.0)]), abs=0.01)
+
+
+def test_beyond_its_ends_a_row_is_laid_by_the_end_that_was_left() -> None:
+    left = onto_drawn(TRUE, DRAWN, np.array([(8.3, LEFT), (71.9, LEFT)]))
+    assert left == pytest.approx(np.array([(8.0, 0.0), (72.0, 0.0)]), abs=0.01)
 
 
 def test_the_rows_left_and_ahead_are_the_neighbours_of_a_segment(record: RunRecord) -> None:
