@@ -8,6 +8,7 @@ from fastapi import APIRouter, Body, Response
 
 from backend import planner
 from backend.deps import ERRORS, PathId, TheStation
+from backend.drawn import check_mission
 from backend.schemas import (
     MissionCreate,
     MissionDocument,
@@ -34,7 +35,7 @@ def list_missions(station: TheStation, site_id: PathId) -> list[MissionDocument]
 @router.post("/sites/{site_id}/missions", status_code=201)
 def create_mission(station: TheStation, site_id: PathId, body: MissionCreate) -> MissionDocument:
     """Store a mission."""
-    return station.missions.create(site_id, body.mission)
+    return station.missions.create(site_id, check_mission(body.mission))
 
 
 @router.post("/sites/{site_id}/missions/for-row")
@@ -47,13 +48,14 @@ def row_mission(station: TheStation, site_id: PathId, body: RowMissionRequest) -
 def import_mission(station: TheStation, site_id: PathId, body: GeoJson) -> MissionDocument:
     """Store a mission from GeoJSON."""
     site = station.sites.get(site_id).site
-    return station.missions.create(site_id, geojson.mission_from_geojson(check_text(body), site))
+    imported = geojson.mission_from_geojson(check_text(body), site)
+    return station.missions.create(site_id, check_mission(imported))
 
 
 @router.post("/sites/{site_id}/preview")
 def preview_mission(station: TheStation, site_id: PathId, body: PreviewRequest) -> Preview:
     """What would be driven, or every reason why it cannot be."""
-    return planner.preview(station.sites.get(site_id).site, body.mission, station.vehicle)
+    return planner.preview(station.sites.get(site_id).site, check_mission(body.mission), station.vehicle)
 
 
 @router.get("/missions/{mission_id}")
@@ -65,7 +67,7 @@ def read_mission(station: TheStation, mission_id: PathId) -> MissionDocument:
 @router.put("/missions/{mission_id}")
 def update_mission(station: TheStation, mission_id: PathId, body: MissionEdit) -> MissionDocument:
     """Replace the mission; 409 if it was changed since `version`. A running copy is not touched."""
-    return station.missions.update(mission_id, body.version, body.mission)
+    return station.missions.update(mission_id, body.version, check_mission(body.mission))
 
 
 @router.delete("/missions/{mission_id}", status_code=204)

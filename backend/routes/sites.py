@@ -7,6 +7,7 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Body, Response
 
 from backend.deps import ERRORS, PathId, TheStation
+from backend.drawn import check_site
 from backend.schemas import ImportedSite, SiteCreate, SiteDocument, SiteEdit, SiteSummary
 from backend.site_files import check_text
 from navcore.maps import geojson
@@ -24,14 +25,14 @@ def list_sites(station: TheStation) -> list[SiteSummary]:
 @router.post("", status_code=201)
 def create_site(station: TheStation, body: SiteCreate) -> SiteDocument:
     """A new site without a picture."""
-    return station.sites.create(body.site)
+    return station.sites.create(check_site(body.site))
 
 
 @router.post("/import", status_code=201)
 def import_site(station: TheStation, body: GeoJson) -> ImportedSite:
     """A new site from GeoJSON, with what was noticed and put right on the way."""
     imported = geojson.import_site(check_text(body))
-    document = station.sites.create(imported.site)
+    document = station.sites.create(check_site(imported.site))
     return ImportedSite(**document.model_dump(exclude={"site"}), site=document.site, notes=list(imported.notes))
 
 
@@ -44,7 +45,7 @@ def read_site(station: TheStation, site_id: PathId) -> SiteDocument:
 @router.put("/{site_id}")
 def update_site(station: TheStation, site_id: PathId, body: SiteEdit) -> SiteDocument:
     """Replace the site map; 409 if it was changed since `version`."""
-    return station.sites.update(site_id, body.version, body.site)
+    return station.sites.update(site_id, body.version, check_site(body.site))
 
 
 @router.delete("/{site_id}", status_code=204)

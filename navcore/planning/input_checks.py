@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from itertools import pairwise
 
 import shapely
 
@@ -14,6 +15,8 @@ from navcore.vehicle import VehicleParams
 
 # A shorter row has no room for entry and exit, m.
 _SHORTEST_ROW = 4.0
+# A longer way is a slip of the hand: no battery lasts for it, and drafting it would take minutes, m.
+_LONGEST_WAY = 30_000.0
 
 
 def input_problems(
@@ -23,6 +26,7 @@ def input_problems(
     return (
         *_site_problems(site),
         *_mission_problems(site, mission, vehicle),
+        *_length_problems(site, mission),
         *(p for row in _visited(site, mission) for p in _row_problems(row, vehicle, params)),
     )
 
@@ -64,6 +68,24 @@ def _mission_problems(site: SiteMap, mission: Mission, vehicle: VehicleParams) -
         yield from _speed_problems(f"in row {visit.row_id}", visit.speed, vehicle)
         if visit.exit is RowExit.NEXT_ROW and number == len(mission.visits):
             yield f"Row {visit.row_id} is the last and has no next row to change to. Let it end otherwise."
+
+
+def _length_problems(site: SiteMap, mission: Mission) -> Iterator[str]:
+    length = sum(math.dist(a, b) for a, b in pairwise(_places(site, mission)))
+    if length > _LONGEST_WAY:
+        yield f"The mission is {length / 1000:.0f} km long; {_LONGEST_WAY / 1000:.0f} km are possible. Split it."
+
+
+def _places(site: SiteMap, mission: Mission) -> Iterator[Point]:
+    """Where the mission leads, in order; the way between them is at least straight."""
+    home = (site.warehouse.x, site.warehouse.y) if site.warehouse else None
+    rows = {row.id: row for row in site.rows}
+    yield from [home] if home else []
+    yield from ((point.x, point.y) for point in mission.outbound)
+    for row in (rows[visit.row_id] for visit in mission.visits if visit.row_id in rows):
+        yield from (row.start, row.end)
+    yield from ((point.x, point.y) for point in mission.inbound)
+    yield from [home] if home else []
 
 
 def _waypoint_problems(name: str, waypoint: Waypoint, vehicle: VehicleParams) -> Iterator[str]:

@@ -75,6 +75,13 @@ def test_everything_wrong_is_listed_at_once() -> None:
     assert caught.value.reasons == found
 
 
+def test_a_way_that_no_battery_lasts_for_is_refused_before_it_is_drawn() -> None:
+    far = Mission(id="m", name="m", outbound=(Waypoint(x=20_000.0, y=0.0),), visits=(), inbound=())
+    assert problems(farm(), far) == ("The mission is 40 km long; 30 km are possible. Split it.",)
+    again = replace(mission_for_row(farm(), "R2", RowExit.REVERSE), visits=(RowVisit(row_id="R2"),) * 600)
+    assert len(problems(farm(), again)) == 1
+
+
 def test_a_hairpin_between_waypoints_is_too_sharp() -> None:
     mission = Mission(
         id="m", name="m", visits=(), inbound=(),
