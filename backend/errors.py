@@ -107,4 +107,4 @@ async def answer_http(request: Request, error: Exception) -> JSONResponse:
 async def answer_unforeseen(request: Request, error: Exception) -> JSONResponse:
     """No trace and no path leaves the machine."""
     log.error("error in %s %s", request.method, request.url.path, exc_info=error)
-    return JSONResponse(body(INTERNAL), 500)
+    return JSONResponse(body(INTERNAL), 500, {"Connection": "close"})  # uvicorn does, and the browser should know

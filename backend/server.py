@@ -14,6 +14,7 @@ from backend.settings import Settings
 from backend.station import Station
 
 LONGEST_SOCKET_MESSAGE = 64 * 2**10
+KEEP_ALIVE_S = 75
 LOG_FORMAT = "%(asctime)s %(name)s %(levelname)s %(message)s"
 
 
@@ -73,7 +74,11 @@ def address(station: Station) -> str:
 
 
 def config(app: object) -> uvicorn.Config:
-    """Camera pictures are JPEG already, so nothing is compressed again; a dead browser is noticed in 10 s."""
+    """Camera pictures are JPEG already, so nothing is compressed again; a dead browser is noticed in 10 s.
+
+    A connection is kept for longer than any page pauses between two questions: one that is closed just when the next
+    question comes is reset.
+    """
     return uvicorn.Config(
         app,  # type: ignore[arg-type]
         log_config=None,
@@ -85,6 +90,7 @@ def config(app: object) -> uvicorn.Config:
         ws_per_message_deflate=False,
         ws_ping_interval=5.0,
         ws_ping_timeout=5.0,
+        timeout_keep_alive=KEEP_ALIVE_S,
         timeout_graceful_shutdown=3,
         limit_concurrency=512,
     )

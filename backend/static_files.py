@@ -17,8 +17,8 @@ page again.</p></body></html>"""
 
 def answer(path: str, root: Path = STATIC) -> Response:
     """A file below `root`; for any other address without a dot in its last part, the one page of the front end."""
-    file = (root / path).resolve() if "\0" not in path else root
-    if file.is_file() and file.is_relative_to(root.resolve()):
+    file = find(path, root)
+    if file is not None:
         return FileResponse(file, headers={"Cache-Control": cache_control(path)})
     if path.startswith(("api/", "scene/")) or "." in path.rpartition("/")[2]:
         raise NotFoundError("There is nothing at this address.")
@@ -26,6 +26,15 @@ def answer(path: str, root: Path = STATIC) -> Response:
     if not index.is_file():
         return HTMLResponse(NOT_BUILT, 503)
     return FileResponse(index, headers={"Cache-Control": "no-cache"})
+
+
+def find(path: str, root: Path) -> Path | None:
+    """The file of an address, None for what no file can be called and for what leads out of `root`."""
+    try:
+        file = (root / path).resolve()
+        return file if file.is_file() and file.is_relative_to(root.resolve()) else None
+    except (OSError, ValueError):  # too long, or with a NUL in it
+        return None
 
 
 def cache_control(path: str) -> str:
