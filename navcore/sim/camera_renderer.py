@@ -15,7 +15,8 @@ from navcore.sim.camera_light import LightParams
 from navcore.sim.orchard import Orchard
 from navcore.sim.render.buffers import View, new_layers, new_queue
 from navcore.sim.render.canopy import leaf_cards
-from navcore.sim.render.ground import Ground, GroundTint, build_ground, lay_ground
+from navcore.sim.render.ground import Ground, GroundTint, build_ground
+from navcore.sim.render.ground_laying import lay_ground
 from navcore.sim.render.lighting import Lighting, build_tables, daylight, ground_noise, vector, with_lamp
 from navcore.sim.render.planting import planted
 from navcore.sim.render.polygon import rasterise

@@ -9,19 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from navcore.sim.orchard import Orchard
-from navcore.sim.render.buffers import Bytes, Floats, Layers, View
-from navcore.sim.render.compiled import compiled, inlined
-from navcore.sim.textures.atlas import Atlas
+from navcore.sim.render.buffers import Bytes, Floats
+from navcore.sim.render.compiled import compiled, inlined, single
 
 CELL_M = 0.5
 MARGIN_M = 8.0
 REACH_M = 6.0
-NOISE_MASK = 511
 BARE_STRIP_M = 0.34
-HIGH = 2.0**24  # keeps coordinates positive, so that truncation rounds down; a multiple of every texture side
-FAR_M = 400.0
-TEXELS_PER_M = 256.0
-TEXTURES_PER_M = 0.5
 TINT_SHARE = 0.65
 GRASS, SOIL, ROAD = 11, 12, 13  # Material
 Light = tuple[float, float, float, float]
@@ -120,70 +114,8 @@ def away(x0: float, y0: float, c: float, s: float, length: float, x: float, y: f
     """
     dx, dy = x - x0, y - y0
     along, left = dx * c + dy * s, dy * c - dx * s
-    over = max(-along, along - length, 0.0)
+    over = max(-along, along - length, single(0.0))
     return math.sqrt(over * over + left * left), over
-
-
-@compiled
-def lay_ground(view: View, light: Light, layers: Layers, ground: Ground, atlas: Atlas) -> None:
-    """Put the plane z = 0 into the layers wherever nothing stands before it.
-
-    Functions called per pixel take numbers only: handing over an array costs more than the work itself.
-    """
-    depth, albedo, shine, tags = layers.inverse_depth, layers.albedo, layers.shine, layers.tag
-    line, road, lines, roads, noise = ground.line, ground.road, ground.lines, ground.roads, ground.noise
-    texels, places, photo, height = atlas.texels, atlas.places, ground.tint.colour, view.centre[2]
-    for row in range(view.height):
-        y = (row + 0.5 - view.cy) / view.fy
-        level = ground_level(view, y)
-        for column in range(view.width):
-            x = (column + 0.5 - view.cx) / view.fx
-            dz = view.right[2] * x + view.down[2] * y + view.forward[2]
-            if dz >= -height / FAR_M or depth[row, column] * -height < dz:
-                continue
-            z = -height / dz
-            px = view.centre[0] + z * (view.right[0] * x + view.down[0] * y + view.forward[0])
-            py = view.centre[1] + z * (view.right[1] * x + view.down[1] * y + view.forward[1])
-            coarse = noise[int(py * 11.0) & NOISE_MASK, int(px * 11.0) & NOISE_MASK] / 255.0
-            middle = noise[int(px * 47.0) & NOISE_MASK, int(py * 47.0) & NOISE_MASK] / 255.0
-            fine = noise[int(px * 173.0) & NOISE_MASK, int(py * 173.0) & NOISE_MASK] / 255.0
-            ragged = (coarse - 0.5) * 0.3 + (middle - 0.5) * 0.22 + (fine - 0.5) * 0.22
-            to_road, to_plants, reach = FAR_M, FAR_M, 0.0
-            j, i = int((px - ground.x) / CELL_M), int((py - ground.y) / CELL_M)
-            if 0 <= i < line.shape[0] and 0 <= j < line.shape[1]:
-                k = road[i, j]
-                if k >= 0:
-                    to_road = away(roads[k, 0], roads[k, 1], roads[k, 2], roads[k, 3], roads[k, 4], px, py)[0]
-                    to_road += ragged - roads[k, 5]
-                k = line[i, j]
-                if k >= 0:
-                    to_plants, over = away(lines[k, 0], lines[k, 1], lines[k, 2], lines[k, 3], lines[k, 4], px, py)
-                    reach = lines[k, 5] + over
-            material = cover(to_road, to_plants, reach, ragged, ground.grassy, coarse, middle, fine)
-            start, side = places[material, level, 0], places[material, level, 1]
-            tx, ty = int(px * TEXTURES_PER_M * side + HIGH), int(py * TEXTURES_PER_M * side + HIGH)
-            texel = start + (ty & (side - 1)) * side + (tx & (side - 1))
-            red, green, blue = float(texels[texel, 0]), float(texels[texel, 1]), float(texels[texel, 2])
-            if ground.tint.per_m > 0.0:
-                j = int((px - ground.tint.x) * ground.tint.per_m + fine - 0.5)
-                i = int((py - ground.tint.y) * ground.tint.per_m + fine - 0.5)
-                if 0 <= i < photo.shape[0] and 0 <= j < photo.shape[1]:
-                    detail = (red + green + blue) / 300.0
-                    red = tinted(red, photo[i, j, 0], detail)
-                    green, blue = tinted(green, photo[i, j, 1], detail), tinted(blue, photo[i, j, 2], detail)
-            albedo[row, column, 0], albedo[row, column, 1], albedo[row, column, 2] = int(red), int(green), int(blue)
-            depth[row, column], tags[row, column] = 1.0 / z, material
-            shine[row, column, 0] = upward(light, px, py)
-            shine[row, column, 1] = (0.72 + 0.28 * min(to_plants, 1.0)) * (0.72 + 0.56 * coarse)
-
-
-@inlined
-def ground_level(view: View, y: float) -> int:
-    """Mip level of the ground on a row, between the sharp one across and the blurred one along the view."""
-    down = view.down[2] * y + view.forward[2]
-    reach = -view.centre[2] / down if down < -1e-4 else 1e4
-    across, along = reach / view.fx, reach * reach / (view.fx * max(view.centre[2], 0.2))
-    return min(max(int(math.log2(max(across, along * 0.35) * TEXELS_PER_M + 1e-6) + 0.5), 0), 8)
 
 
 @inlined
@@ -200,15 +132,18 @@ def cover(
     to_road: float, to_plants: float, reach: float, ragged: float, grassy: float, coarse: float, middle: float,
     fine: float,
 ) -> int:  # fmt: skip
-    """Material of the ground at a distance from the road's edge and from a line of plants, m."""
-    if to_road < 0.0:
-        return ROAD
-    if to_plants + ragged < BARE_STRIP_M:
-        return SOIL
-    track = abs(to_plants - reach + 0.42) + (coarse - 0.5) * 0.3 + (fine - 0.5) * 0.2
-    if track < 0.10 and middle * 0.6 + fine * 0.4 > 0.42:
-        return ROAD
-    return GRASS if coarse * 0.6 + middle * 0.15 + fine * 0.25 < 0.28 + 0.45 * grassy else SOIL
+    """Material of the ground at a distance from the road's edge and from a line of plants, m.
+
+    All conditions are worked out: noise decides them, so that a branch would be guessed wrong half the time.
+    """
+    grass = coarse * single(0.6) + middle * single(0.15) + fine * single(0.25) < single(0.28) + single(0.45) * grassy
+    track = abs(to_plants - reach + single(0.42)) + (coarse - single(0.5)) * single(0.3)
+    worn = (track + (fine - single(0.5)) * single(0.2) < single(0.10)) & (
+        middle * single(0.6) + fine * single(0.4) > single(0.42)
+    )
+    material = ROAD if worn else (GRASS if grass else SOIL)
+    material = SOIL if to_plants + ragged < single(BARE_STRIP_M) else material
+    return ROAD if to_road < single(0.0) else material
 
 
 @inlined
