@@ -12,11 +12,13 @@ from pyproj.exceptions import ProjError
 from rasterio.enums import ColorInterp
 from rasterio.io import DatasetReader
 
+from backend.orthophoto_datum import frame_of, name_of
 from navcore.errors import OrthophotoError
 
 MEBIBYTE = 2**20
 EARTH_PIXEL = 2 * math.pi * 6378137.0 / 256  # m, a pixel of zoom 0 at the equator (EPSG:3857)
 SPAN_LIMIT = 20_000.0  # m; beyond it the plane that is tangent to the site's centre leaves the ground by > 8 m
+COLOURS = ("red", "green", "blue")
 Floats = NDArray[np.float64]
 
 
@@ -90,6 +92,9 @@ def check_bands(picture: DatasetReader) -> tuple[int, ...]:
             f"This file holds {', '.join(sorted(kinds))} values, as a height model does, and no colours. "
             "Export the orthophoto with 8 bits per colour."
         )
+    named = [str(name).lower() for name in picture.descriptions]
+    if all(colour in named for colour in COLOURS):  # cameras of many bands begin with blue
+        return tuple(named.index(colour) + 1 for colour in COLOURS)
     meanings = picture.colorinterp
     rgb = (ColorInterp.red, ColorInterp.green, ColorInterp.blue)
     if all(colour in meanings for colour in rgb):
@@ -108,14 +113,18 @@ def locate(picture: DatasetReader, params: CheckParams) -> PictureFacts:
     x, y = _to(crs, "EPSG:3857", *outline(picture))
     if not all(np.isfinite(values).all() for values in (lon_deg, lat_deg, x, y)):
         raise OrthophotoError("Parts of this picture lie outside of its own coordinate system. Export it again.")
+    if float(np.ptp(lon_deg)) > 180.0 or float(np.abs(lon_deg).max()) > 180.0:
+        raise OrthophotoError("This picture reaches over the 180th meridian, where the map ends. Cut it there.")
     resolution, span = measure(picture, crs)
     check_ground(resolution, span, params)
-    centre_lon, centre_lat = _to(crs, "EPSG:4326", *centre(picture))
+    middle = centre(picture)
+    centre_lon, centre_lat = _to(crs, "EPSG:4326", *middle)
+    x_middle, y_middle = float(middle[0][0]), float(middle[1][0])
     bounds_3857 = _bounds(x, y)
     min_zoom, max_zoom = zoom_range(bounds_3857, resolution, float(centre_lat[0]))
     return PictureFacts(
-        crs=_name(crs),
-        frame=_frame(crs),
+        crs=name_of(crs, x_middle, y_middle),
+        frame=frame_of(crs, x_middle, y_middle),
         width_px=picture.width,
         height_px=picture.height,
         resolution=resolution,
@@ -129,10 +138,15 @@ def locate(picture: DatasetReader, params: CheckParams) -> PictureFacts:
 
 def known_crs(picture: DatasetReader) -> pyproj.CRS:
     """The picture's coordinate system, if it places things on the Earth."""
+    if picture.gcps[0]:
+        raise OrthophotoError(
+            "This picture holds control points but has not been rectified by them. Rectify it first "
+            "(QGIS: Raster, Projections, Warp), then import the result."
+        )
     if picture.crs is None:
         raise OrthophotoError(
-            "This picture does not say where on Earth it lies (it has no coordinate system). "
-            "Export it as a GeoTIFF with its coordinate system."
+            "This picture does not say where on Earth it lies (it has no coordinate system; a world file beside it "
+            "or the GPS of a photo does not count). Export it as a GeoTIFF with its coordinate system."
         )
     try:
         crs = pyproj.CRS.from_wkt(picture.crs.to_wkt(version="WKT2_2019"))
@@ -221,14 +235,3 @@ def _to(crs: pyproj.CRS, target: str, x: Floats, y: Floats) -> tuple[Floats, Flo
 
 def _bounds(x: Floats, y: Floats) -> tuple[float, float, float, float]:
     return float(x.min()), float(y.min()), float(x.max()), float(y.max())
-
-
-def _name(crs: pyproj.CRS) -> str:
-    authority = crs.to_authority()
-    return ":".join(authority) if authority else crs.name[:100]
-
-
-def _frame(crs: pyproj.CRS) -> str:
-    datum = crs.geodetic_crs.datum if crs.geodetic_crs else None
-    named = datum.name if datum else ""
-    return "ETRS89" if "European Terrestrial Reference System 1989" in named or "ETRS89" in named else "WGS 84"

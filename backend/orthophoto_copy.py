@@ -15,7 +15,8 @@ from rasterio.io import DatasetReader, DatasetWriter
 from rasterio.vrt import WarpedVRT
 from rasterio.windows import Window
 
-from backend.orthophoto_colours import Image, Scale
+from backend.orthophoto_colours import EMPTY, Image, Scale
+from navcore.errors import OrthophotoError
 
 BLOCK_PX = 512
 STRIP_BYTES = 96 * 2**20
@@ -24,15 +25,18 @@ Tell = Callable[[float, str], None]
 
 
 def copy(picture: DatasetReader, bands: tuple[int, ...], target: Path, tell: Tell) -> None:
-    """Strip by strip into our own kind of file."""
-    scale = Scale.of(picture, bands)
+    """Strip by strip into our own kind of file. Raises OrthophotoError if no pixel of it is valid."""
+    scale, empty = Scale.of(picture, bands), True
     with north_up(picture) as upright, rasterio.open(target, "w", **profile(upright)) as out:
         windows = list(strips(upright))
         for done, window in enumerate(windows):
             rgb, mask = read_strip(upright, bands, window, scale)
             out.write(rgb, window=window)
             out.write_mask(mask, window=window)
+            empty = empty and not mask.any()
             tell(0.02 + (COPIED - 0.02) * (done + 1) / len(windows), "Copying the picture")
+    if empty:
+        raise OrthophotoError(EMPTY)
 
 
 def north_up(picture: DatasetReader) -> DatasetReader | WarpedVRT:

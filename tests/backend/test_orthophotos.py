@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 import rasterio
 from fastapi.testclient import TestClient
+from rasterio.control import GroundControlPoint
 from rasterio.transform import Affine
 
 from backend.station import Station
@@ -74,6 +75,15 @@ def jpeg(path: Path) -> bytes:
     return bytes(data)
 
 
+def control_points_only(path: Path) -> bytes:
+    write(path, colours(), crs=None, transform=Affine.identity())
+    corners = [(0, 0), (0, 400), (300, 0), (300, 400)]
+    points = [GroundControlPoint(row, column, *(NORTH_UP @ (column, row))) for row, column in corners]
+    with rasterio.open(path, "r+") as out:
+        out.gcps = (points, rasterio.CRS.from_string(UTM))
+    return path.read_bytes()
+
+
 BAD: dict[str, tuple[Callable[[Path], bytes], str]] = {
     "vrt": (lambda p: vrt(write(p, colours())), "cannot be read as a GeoTIFF"),
     "bomb": (sparse, "unpacks|Decoded"),
@@ -82,6 +92,14 @@ BAD: dict[str, tuple[Callable[[Path], bytes], str]] = {
     "empty": (lambda p: b"", "cannot be read"),
     "text": (lambda p: b"hello" * 1000, "cannot be read"),
     "no crs": (lambda p: write(p, colours(), crs=None).read_bytes(), "does not say where on Earth"),
+    "control points": (control_points_only, "Rectify it first"),
+    "nothing valid": (lambda p: write(p, colours() * 0, nodata=0).read_bytes(), "has no pixel that is valid"),
+    "across the map's edge": (
+        lambda p: write(
+            p, colours(), crs="EPSG:4326", transform=Affine(1e-5, 0, 179.999, 0, -1e-5, -17.0)
+        ).read_bytes(),
+        "180th meridian",
+    ),
     "no place": (lambda p: write(p, colours(), transform=Affine.identity()).read_bytes(), "where its pixels lie"),
     "local": (
         lambda p: write(p, colours(), crs='LOCAL_CS["field",UNIT["metre",1]]').read_bytes(),
