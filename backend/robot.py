@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import time
+
 from backend import scene_proxy
 from backend.errors import ConflictError
 from backend.live import Hub
@@ -16,6 +18,8 @@ from navcore.transport.codec import decode
 from navcore.vehicle import PROFILES
 
 STANDING = frozenset({RunState.IDLE, RunState.FINISHED, RunState.STOPPED})
+STOPPED = "The last mission was stopped. Acknowledge the stop first, or resume the mission."
+UNDER_WAY = "A mission is under way. Stop it before you start another."
 
 
 class RobotView:
@@ -25,6 +29,7 @@ class RobotView:
         self._settings = settings
         self._hub = hub
         self._supervisor = supervisor
+        self._started_ns = 0
 
     def status(self) -> NavStatus | None:
         """The navigator's newest status, None if it has been silent for longer than the topic allows."""
@@ -51,12 +56,21 @@ class RobotView:
     def start_reasons(self, site_id: str, site_name: str) -> list[str]:
         """What stands against a start on that site, beside the plan and the navigator's own reasons."""
         reasons = []
-        if self.status() is None:
+        status = self.status()
+        if status is None:
             reasons.append("The robot is not connected. Check that it is switched on, then try again.")
+        elif status.state is RunState.STOPPED:
+            reasons.append(STOPPED)
+        elif status.state not in STANDING or status.stamp_ns < self._started_ns:
+            reasons.append(UNDER_WAY)
         supervisor = self._supervisor.status()
         if supervisor is not None and supervisor.site_id != site_id:
             reasons.append(f"The robot is set up for another farm. Place it on {site_name} first.")
         return reasons
+
+    def note_start(self) -> None:
+        """A run was started: what the robot said of itself before this is out of date."""
+        self._started_ns = time.monotonic_ns()
 
     def place(self, site_id: str, site: SiteMap) -> None:
         """Set the robot up for a farm; a simulated one starts again there. Raises ConflictError while it drives."""

@@ -97,7 +97,9 @@ class RunStarter:
     def _start(self, new: NewRun) -> RunDocument:
         run = self._runs.create(new)
         try:
-            self._recorder.finish(None)  # that of a run that was stopped and never resumed
+            self._recorder.finish(
+                None
+            )  # of a run that ended unseen; `_prepare` saw that none is under way
             self._recorder.start(new.id, self._runs.expected_log(new.id), metadata(new))
             self._ask_to_drive(new)
         except TransportError as error:
@@ -120,6 +122,7 @@ class RunStarter:
         reply = self._navigator.ask(request, timeout_ms=3000)
         if not reply.accepted:
             raise RefusedError(CANNOT_START, reply.reasons)
+        self._robot.note_start()
 
     def _stop_late_starter(self, run_id: str) -> None:
         """A navigator that did not answer in time may have started all the same."""

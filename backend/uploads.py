@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import os
 import shutil
+from collections.abc import AsyncIterator
 from pathlib import Path
 
 from anyio import open_file
-from starlette.requests import Request
+from starlette.requests import ClientDisconnect, Request
 
 from backend.errors import DiskFullError, TooLargeError
 from backend.ids import new_id
 from backend.settings import Settings
+from navcore.errors import InputError
 
 
 async def receive(request: Request, settings: Settings) -> Path:
@@ -36,7 +38,7 @@ def refuse_too_large(request: Request, settings: Settings) -> None:
 async def _write(request: Request, path: Path, settings: Settings) -> None:
     written = 0
     async with await open_file(path, "xb") as file:
-        async for chunk in request.stream():
+        async for chunk in _chunks(request):
             written += len(chunk)
             if written > settings.upload_limit_bytes:
                 raise _too_large(settings)
@@ -44,6 +46,14 @@ async def _write(request: Request, path: Path, settings: Settings) -> None:
                 await file.write(chunk)
             except OSError as error:
                 raise _disk_full() from error
+
+
+async def _chunks(request: Request) -> AsyncIterator[bytes]:
+    try:
+        async for chunk in request.stream():
+            yield chunk
+    except ClientDisconnect as error:
+        raise InputError("The upload broke off. Send the file again.") from error
 
 
 def _check_size(size: int, settings: Settings) -> None:

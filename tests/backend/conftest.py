@@ -6,6 +6,7 @@ import shutil
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 from fastapi.testclient import TestClient
@@ -15,7 +16,8 @@ from backend.settings import Settings
 from backend.station import Station
 from navcore.maps.mission import Mission, RowVisit, Waypoint
 from navcore.maps.site_map import Datum, Lane, Row, SiteMap, Warehouse
-from tests.backend.played_robot import PlayedRobot
+from tests.backend.played_robot import PlayedRobot, until
+from tests.backend.starting import as_json
 
 ORIGIN = "http://127.0.0.1:8000"
 
@@ -90,3 +92,14 @@ def robot(bus_dir: Path) -> Iterator[PlayedRobot]:
     played = PlayedRobot(bus_dir)
     yield played
     played.close()
+
+
+@pytest.fixture
+def ready(robot: PlayedRobot, client: TestClient, site: SiteMap) -> dict[str, Any]:
+    """A stored mission, the robot on its farm and connected."""
+    farm = client.post("/api/sites", json={"site": as_json(site)}).json()
+    made = client.post(f"/api/sites/{farm['id']}/missions/for-row", json={"row_id": "r1", "exit": "reverse"}).json()
+    mission: dict[str, Any] = client.post(f"/api/sites/{farm['id']}/missions", json={"mission": made}).json()
+    assert client.post("/api/robot/site", json={"site_id": farm["id"]}).status_code == 200
+    assert until(lambda: client.get("/api/robot").json()["connected"])
+    return mission

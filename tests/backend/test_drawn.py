@@ -2,23 +2,18 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
-import msgspec
 import pytest
 from fastapi.testclient import TestClient
 
 from navcore.maps.mission import Mission, RowVisit, Waypoint
 from navcore.maps.site_map import Datum, Lane, SiteMap, Warehouse, Zone, ZoneKind
+from tests.backend.starting import as_json
 
 Change = Callable[[SiteMap], SiteMap]
-
-
-def as_json(value: object) -> Any:
-    return json.loads(msgspec.json.encode(value))
 
 
 def with_row(**changes: Any) -> Change:

@@ -6,36 +6,15 @@ import json
 import time
 from typing import Any
 
-import msgspec
 import pytest
 from fastapi.testclient import TestClient
 
 from backend.station import Station
-from navcore.maps.site_map import SiteMap
 from navcore.messages import RequestKind, RunState
 from tests.backend.played_robot import JPEG, PlayedRobot, until
+from tests.backend.starting import as_json, start
 
 pytestmark = pytest.mark.usefixtures("robot")
-
-
-def as_json(value: object) -> Any:
-    return json.loads(msgspec.json.encode(value))
-
-
-@pytest.fixture
-def ready(robot: PlayedRobot, client: TestClient, site: SiteMap) -> dict[str, Any]:
-    """A stored mission, the robot on its farm and connected."""
-    farm = client.post("/api/sites", json={"site": as_json(site)}).json()
-    made = client.post(f"/api/sites/{farm['id']}/missions/for-row", json={"row_id": "r1", "exit": "reverse"}).json()
-    mission: dict[str, Any] = client.post(f"/api/sites/{farm['id']}/missions", json={"mission": made}).json()
-    assert client.post("/api/robot/site", json={"site_id": farm["id"]}).status_code == 200
-    assert until(lambda: client.get("/api/robot").json()["connected"])
-    return mission
-
-
-def start(client: TestClient, mission: dict[str, Any]) -> Any:
-    nonce = client.get("/api/drive/nonce").json()["nonce"]
-    return client.post("/api/runs", json={"mission_id": mission["id"], "link_loss": "stop", "nonce": nonce})
 
 
 def test_a_mission_is_started_and_the_run_keeps_its_own_copies(

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from typing import Any
 
-import msgspec
 import pytest
 from fastapi.testclient import TestClient
 from hypothesis import HealthCheck, given
@@ -14,10 +13,7 @@ from hypothesis import strategies as st
 
 from navcore.maps.mission import Mission
 from navcore.maps.site_map import SiteMap
-
-
-def as_json(value: object) -> Any:
-    return json.loads(msgspec.json.encode(value))
+from tests.backend.starting import as_json
 
 
 @pytest.fixture
