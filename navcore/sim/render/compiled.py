@@ -14,7 +14,7 @@ R = TypeVar("R")
 # In kernels a plain number is of double precision, which fits half as often into a vector.
 single = cast("Callable[[float], float]", np.float32)
 # An index that is not negative and says so, or each use of it would look for Python's counting from the end.
-index = cast("Callable[[int], int]", np.uint32)
+index = cast("Callable[[float], int]", np.uint32)
 
 
 def compiled(function: Callable[P, R]) -> Callable[P, R]:

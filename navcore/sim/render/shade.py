@@ -1,4 +1,4 @@
-"""From layers to a picture: the ground is laid into the layers, then all is lit alike."""
+"""From layers to a picture: all is lit alike, then exposed and developed, row by row."""
 
 from __future__ import annotations
 
@@ -7,15 +7,13 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from navcore.sim.render.buffers import Bytes, Layers, View
-from navcore.sim.render.compiled import compiled, inlined
+from navcore.sim.render.buffers import Bytes, Floats32, Layers, View
+from navcore.sim.render.compiled import compiled, index, single
 from navcore.sim.render.lighting import WHITE, Lighting, Tables
-from navcore.sim.render.shadow import Shadow, shadow_cell
+from navcore.sim.render.row_light import colours, light_of_row, material_traits, ray
+from navcore.sim.render.shadow import Shadow
 
-FIRST_LEAF, LAST_LEAF, TUFT, FIRST_GROUND = 1, 3, 4, 11  # Material
-UNKNOWN_SUN = 0.6
-SOFT_SHADOW_M = 6.0
-Colour = tuple[float, float, float]
+SKY_STEPS = 1024
 
 
 @compiled
@@ -24,64 +22,28 @@ def shade(
     canopy: tuple[float, float], picture: Bytes,
 ) -> None:  # fmt: skip
     """Fill picture (H, W, 3), blue, green, red."""
-    depth, albedo, shine, tags = layers.inverse_depth, layers.albedo, layers.shine, layers.tag
-    linear, film, grain, jitter, sky = tables.linear, tables.developed, tables.grain, tables.jitter, tables.sky
-    height, shear, middle, fog = shadow.height, shadow.shear, shadow.centre, tables.fog
-    bright = lighting.exposure / WHITE * 4095.0
-    red, green, blue = bright * lighting.gains[0], bright * lighting.gains[1], bright * lighting.gains[2]
-    noise, root = lighting.noise / WHITE * 4095.0, 1.44 * 0.33 * lighting.exposure
-    sky_rows, sky_columns = sky_lookup(view, sky.shape[0], sky.shape[1])
+    sky_rows, sky_columns = sky_lookup(view, tables.sky.shape[0], tables.sky.shape[1])
+    place, light = np.empty((4, view.width), np.float32), np.empty((3, view.width), np.float32)
+    colour, speck = np.empty((3, view.width), np.float32), np.empty(view.width, np.float32)
+    levels, traits = np.empty(view.width, np.int32), material_traits(canopy)
     for row in range(view.height):
-        y = (row + 0.5 - view.cy) / view.fy
-        speck_row, speck_column = (row + grain_row) % grain.shape[0], grain_column
-        for column in range(view.width):
-            x = (column + 0.5 - view.cx) / view.fx
-            dx = view.right[0] * x + view.down[0] * y + view.forward[0]
-            dy = view.right[1] * x + view.down[1] * y + view.forward[1]
-            dz = view.right[2] * x + view.down[2] * y + view.forward[2]
-            speck = grain[speck_row, speck_column] * noise
-            speck_column = speck_column + 1 if speck_column + 1 < grain.shape[1] else 0
-            w = depth[row, column]
-            if w <= 0.0:
-                up = dz / math.sqrt(dx * dx + dy * dy + dz * dz)
-                i, j = sky_rows[int(min(max(up, 0.0), 1.0) * 1023.0)], sky_columns[column]
-                r, g, b = sky[i, j, 0], sky[i, j, 1], sky[i, j, 2]
-            else:
-                z = 1.0 / w
-                px, py, pz = view.centre[0] + dx * z, view.centre[1] + dy * z, view.centre[2] + dz * z
-                material, k = tags[row, column] & 15, shine[row, column, 1]
-                leaf = FIRST_LEAF <= material <= LAST_LEAF
-                s = max(shine[row, column, 0], 0.0)
-                if lighting.source[3] != 0.0:
-                    s *= lamp_light(lighting.source, lighting.beam, px, py, pz)
-                elif s > 0.0 and lighting.shadows:
-                    spot = ((row & 15) << 4) + (column & 15)
-                    bias = 0.10 if leaf else (0.03 if material >= FIRST_GROUND else 0.05)
-                    top = (pz + bias) * 1000.0
-                    cell = shadow_cell(shear, middle, px, py, pz, jitter[spot, 0], jitter[spot, 1])
-                    share = UNKNOWN_SUN if cell < 0 else (1.0 if height[cell] <= top else 0.0)
-                    if cell >= 0 and z < SOFT_SHADOW_M and not leaf:
-                        cell = shadow_cell(shear, middle, px, py, pz, jitter[spot, 2], jitter[spot, 3])
-                        share = 0.5 * share + (0.5 if cell < 0 or height[cell] <= top else 0.0)
-                    s *= max(share, 0.10) if leaf or material == TUFT else share
-                sky_share = open_sky(material, pz, canopy)
-                r = linear[albedo[row, column, 0]] * k * (lighting.ambient[0] * sky_share + lighting.direct[0] * s)
-                g = linear[albedo[row, column, 1]] * k * (lighting.ambient[1] * sky_share + lighting.direct[1] * s)
-                b = linear[albedo[row, column, 2]] * k * (lighting.ambient[2] * sky_share + lighting.direct[2] * s)
-                f = fog[min(int(z * lighting.haze_per_m * 256.0), 2047)]
-                r, g, b = mixed(r, lighting.haze[0], f), mixed(g, lighting.haze[1], f), mixed(b, lighting.haze[2], f)
-            speck *= 0.35 + math.sqrt(max(r + g + b, 0.0) * root)
-            picture[row, column, 2] = film[int(min(max(r * red + speck, 0.0), 4095.0))]
-            picture[row, column, 1] = film[int(min(max(g * green + speck, 0.0), 4095.0))]
-            picture[row, column, 0] = film[int(min(max(b * blue + speck, 0.0), 4095.0))]
+        light_of_row(view, row, layers, shadow, lighting, tables, traits, place, light)
+        for c in range(3):
+            colours(lighting, c, tables.linear, layers.albedo[row], layers.shine[row], light, colour[c])
+        put_sky(view, row, layers.inverse_depth[row], tables.sky, sky_rows, sky_columns, colour)
+        take_grain(tables.grain[(row + grain_row) % len(tables.grain)], grain_column, speck)
+        scale_grain(lighting, colour[0], colour[1], colour[2], speck)
+        for c in range(3):
+            expose(colour[c], lighting.exposure / WHITE * 4095.0 * lighting.gains[c], speck, levels)
+            develop(levels, tables.developed, picture[row], 2 - c)
 
 
 @compiled
 def sky_lookup(view: View, height: int, width: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Row of the panorama by sine of elevation (1024 steps), and its column for each column of the picture."""
-    rows, columns = np.empty(1024, np.int64), np.empty(view.width, np.int64)
-    for i in range(1024):
-        rows[i] = int((1.0 - math.asin(i / 1023.0) / (math.pi / 2)) * (height - 1))
+    rows, columns = np.empty(SKY_STEPS, np.int64), np.empty(view.width, np.int64)
+    for i in range(SKY_STEPS):
+        rows[i] = int((1.0 - math.asin(i / (SKY_STEPS - 1)) / (math.pi / 2)) * (height - 1))
     for column in range(view.width):
         x = (column + 0.5 - view.cx) / view.fx
         azimuth = math.atan2(view.right[1] * x + view.forward[1], view.right[0] * x + view.forward[0])
@@ -89,29 +51,53 @@ def sky_lookup(view: View, height: int, width: int) -> tuple[NDArray[np.int64], 
     return rows, columns
 
 
-@inlined
-def open_sky(material: int, z: float, canopy: tuple[float, float]) -> float:
-    """Share of the sky's light that reaches a point: little low in the canopy."""
-    if material >= FIRST_GROUND:
-        return 1.0
-    if FIRST_LEAF <= material <= LAST_LEAF:
-        return 0.30 + 0.55 * min(max((z - canopy[0]) / (canopy[1] - canopy[0]), 0.0), 1.0)
-    return 0.55 + z * 1.2 if material == TUFT else 0.46 + 0.12 * min(z, 2.2)
+@compiled
+def put_sky(
+    view: View, row: int, inverse_depth: Floats32, sky: Floats32, sky_rows: NDArray[np.int64],
+    sky_columns: NDArray[np.int64], colour: Floats32,
+) -> None:  # fmt: skip
+    """Overwrite the colours wherever nothing stands."""
+    first, step = ray(view, row, 2)
+    start, change, last = single(first), single(step), single(SKY_STEPS - 1)
+    y, left, across = (row + 0.5 - view.cy) / view.fy, single((0.5 - view.cx) / view.fx), single(1.0 / view.fx)
+    square = single(1.0 + y * y)
+    for c in range(len(inverse_depth)):
+        if inverse_depth[c] <= 0.0:
+            x = left + across * single(c)
+            up = (start + change * single(c)) / math.sqrt(square + x * x)
+            i, j = sky_rows[index(min(max(up, single(0.0)), single(1.0)) * last)], sky_columns[c]
+            colour[0, c], colour[1, c], colour[2, c] = sky[i, j, 0], sky[i, j, 1], sky[i, j, 2]
 
 
-@inlined
-def lamp_light(
-    source: tuple[float, float, float, float], beam: Colour, x: float, y: float, z: float
-) -> float:  # fmt: skip
-    """Light of the robot's lamp at a place, for a surface that faces it."""
-    dx, dy, dz = x - source[0], y - source[1], z - source[2]
-    square = dx * dx + dy * dy + dz * dz
-    ahead = max((dx * beam[0] + dy * beam[1] + dz * beam[2]) / math.sqrt(square), 0.0)
-    lobe = ahead * ahead * ahead
-    return lobe * lobe / max(square, 0.5)
+@compiled
+def take_grain(grain: Floats32, start: int, speck: Floats32) -> None:
+    """A row of the grain from column `start` on, over and over."""
+    done = 0
+    while done < len(speck):
+        part = min(len(grain) - start, len(speck) - done)
+        speck[done : done + part] = grain[start : start + part]
+        done, start = done + part, 0
 
 
-@inlined
-def mixed(a: float, b: float, share: float) -> float:
-    """From a (share 0) to b (share 1)."""
-    return a + (b - a) * share
+@compiled
+def scale_grain(lighting: Lighting, red: Floats32, green: Floats32, blue: Floats32, speck: Floats32) -> None:
+    """The brighter, the more photons, the more noise: by the root of the light."""
+    noise, root = single(lighting.noise / WHITE * 4095.0), single(1.44 * 0.33 * lighting.exposure)
+    for c in range(len(speck)):
+        bright = max(red[c] + green[c] + blue[c], single(0.0)) * root
+        speck[c] *= noise * (single(0.35) + math.sqrt(bright))
+
+
+@compiled
+def expose(colour: Floats32, gain: float, speck: Floats32, levels: NDArray[np.int32]) -> None:
+    """Place in the film's table, 0 to 4095."""
+    factor, most = single(gain), single(4095.0)
+    for c in range(len(levels)):
+        levels[c] = np.int32(min(max(colour[c] * factor + speck[c], single(0.0)), most))
+
+
+@compiled
+def develop(levels: NDArray[np.int32], film: NDArray[np.uint8], picture: Bytes, channel: int) -> None:
+    """From the film's table into one channel of a row of the picture."""
+    for c in range(len(levels)):
+        picture[c, channel] = film[index(levels[c])]

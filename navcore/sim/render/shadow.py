@@ -206,16 +206,3 @@ def fill_shadow(screen: Floats, plane: Floats, material: int, texels: Bytes, pla
                     if texels[start + ty * columns + tx, 3] <= 127:
                         continue
                 height[row, x] = int(min(z, 32000.0))
-
-
-@inlined
-def shadow_cell(
-    shear: Pair, centre: Pair, x: float, y: float, z: float, jitter_x: float, jitter_y: float
-) -> int:  # fmt: skip
-    """Where the flattened map knows about the sun ray through a point; -1 where it does not."""
-    gx, gy = x - shear[0] * z, y - shear[1] * z
-    if abs(gx - centre[0]) > RADIUS_M or abs(gy - centre[1]) > RADIUS_M:
-        return -1
-    column = math.floor(gx * PER_M + jitter_x) & (SIDE_PX - 1)
-    row = math.floor(gy * PER_M + jitter_y) & (SIDE_PX - 1)
-    return row * SIDE_PX + column

@@ -12,8 +12,9 @@ from navcore.sim.orchard import OrchardParams, build_orchard
 from navcore.sim.render.canopy import leaf_cards
 from navcore.sim.render.planting import planted
 from navcore.sim.render.primitives import into_chunks
-from navcore.sim.render.shadow import Shadow, ShadowMap, shadow_cell
-from navcore.sim.textures.atlas import build_atlas
+from navcore.sim.render.row_light import UNKNOWN_SUN, material_traits, sun_on_row
+from navcore.sim.render.shadow import PER_M, Shadow, ShadowMap
+from navcore.sim.textures.atlas import Material, build_atlas
 
 
 def lone_post_shadow(x: float, y: float, azimuth: float, elevation: float) -> Shadow:
@@ -28,9 +29,22 @@ def lone_post_shadow(x: float, y: float, azimuth: float, elevation: float) -> Sh
     return ShadowMap(into_chunks(planted(orchard, leaf_cards(orchard))), build_atlas(orchard), sun).around(x, y)
 
 
+def sun_share(shadow: Shadow, x: float, y: float, z: float) -> float:
+    """Share of the sun that a steel post gets at a place."""
+    right = np.full(1, (x - shadow.shear[0] * z - shadow.centre[0]) * PER_M, np.float32)
+    left = np.full(1, (y - shadow.shear[1] * z - shadow.centre[1]) * PER_M, np.float32)
+    light, depth, height = np.zeros(1, np.float32), np.full(1, 10.0, np.float32), np.full(1, z, np.float32)
+    sun_on_row(
+        0, shadow, np.zeros((256, 4), np.float32), material_traits((1.0, 2.0)), np.full(1, Material.STEEL, np.int32),
+        np.ones((1, 2), np.float32), depth, height, right, left, light,
+    )  # fmt: skip
+    return float(light[0])
+
+
 def shaded(shadow: Shadow, x: float, y: float, z: float) -> bool:
-    cell = shadow_cell(shadow.shear, shadow.centre, x, y, z, 0.0, 0.0)
-    return bool(shadow.height[cell] > z * 1000.0 + 30.0)
+    share = sun_share(shadow, x, y, z)
+    assert share in (0.0, 1.0)
+    return share == 0.0
 
 
 @pytest.mark.parametrize("azimuth", [0.0, 1.0, -2.5])
@@ -55,4 +69,4 @@ def test_what_stands_above_the_shadow_is_lit() -> None:
 
 def test_nothing_is_known_far_from_the_robot() -> None:
     shadow = lone_post_shadow(0.0, 0.0, 0.0, math.radians(45))
-    assert shadow_cell(shadow.shear, shadow.centre, 40.0, 0.0, 0.0, 0.0, 0.0) == -1
+    assert sun_share(shadow, 40.0, 0.0, 0.0) == pytest.approx(UNKNOWN_SUN)
