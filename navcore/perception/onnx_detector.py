@@ -54,9 +54,11 @@ class OnnxDetector:
         if scale != 1.0:
             method = cv2.INTER_AREA if scale < 1.0 else cv2.INTER_LINEAR
             image = np.asarray(cv2.resize(image, None, fx=scale, fy=scale, interpolation=method), dtype=np.uint8)
-        blob = np.zeros((1, 3, self._height, self._width), dtype=np.float32)
+        blob = np.empty((1, 3, self._height, self._width), dtype=np.float32)
         h, w = min(image.shape[0], self._height), min(image.shape[1], self._width)
-        np.multiply(image[:h, :w].transpose(2, 0, 1), np.float32(1 / 255), out=blob[0, :, :h, :w])
+        blob[:, :, h:], blob[:, :, :h, w:] = 0.0, 0.0
+        for plane, out in zip(cv2.split(image[:h, :w]), blob[0], strict=True):
+            np.multiply(plane, np.float32(1 / 255), out=out[:h, :w])
         return blob
 
 
