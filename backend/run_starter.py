@@ -97,9 +97,7 @@ class RunStarter:
     def _start(self, new: NewRun) -> RunDocument:
         run = self._runs.create(new)
         try:
-            self._recorder.finish(
-                None
-            )  # of a run that ended unseen; `_prepare` saw that none is under way
+            self._recorder.finish(None)  # of a run that ended unseen; `_prepare` saw that none is under way
             self._recorder.start(new.id, self._runs.expected_log(new.id), metadata(new))
             self._ask_to_drive(new)
         except TransportError as error:

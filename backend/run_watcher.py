@@ -24,6 +24,7 @@ log = logging.getLogger("rowpilot.station")
 POLL_MS = 50
 WRITE_S = 1.0
 LOST_S = 30.0
+FORGOTTEN = "The robot was started again during this run. The log of the run tells what happened."
 LOST = "The station has not heard of the robot since. The log of the run tells what happened."
 OVER = frozenset({RunState.IDLE, RunState.FINISHED})
 
@@ -45,6 +46,7 @@ class RunWatcher(Worker):
         self._show_plan = show_plan
         self._on_end = on_end
         self._figures: RunFigures | None = None
+        self._told_run: str | None = ""  # the robot's last word on what it drives; nothing yet
         self._written_s = 0.0
         self._heard_s = time.monotonic()
 
@@ -67,23 +69,27 @@ class RunWatcher(Worker):
 
     def _take_status(self, status: NavStatus) -> None:
         self._heard_s = time.monotonic()
-        if status.run_id is None:
-            self._end_acknowledged()
-            return
-        if self._figures is None or self._figures.run_id != status.run_id:
-            self._let_go()
-            self._figures = self._follow(status.run_id)
+        if self._figures is not None and self._figures.run_id != status.run_id:
+            self._end(self._figures)
+        if status.run_id != self._told_run:
+            self._told_run = status.run_id
+            self._interrupt_all_but(status.run_id, FORGOTTEN)
+        if status.run_id is not None:
+            self._add(status.run_id, status)
+
+    def _add(self, run_id: str, status: NavStatus) -> None:
+        if self._figures is None:
+            self._figures = self._follow(run_id)
         before = self._figures.last
         self._figures.add(status)
         if status.state in OVER and (before is None or before.state not in OVER):
             self._write()
-            self._on_end(status.run_id)
+            self._on_end(run_id)
 
-    def _end_acknowledged(self) -> None:
+    def _end(self, figures: RunFigures) -> None:
         """A stopped run that the robot speaks of no more was acknowledged: nobody can resume it."""
-        figures = self._figures
         self._let_go()
-        if figures is not None and figures.last is not None and figures.last.state not in OVER:
+        if figures.last is not None and figures.last.state not in OVER:
             self._on_end(figures.run_id)
 
     def _follow(self, run_id: str) -> RunFigures:
@@ -109,8 +115,11 @@ class RunWatcher(Worker):
     def _give_up(self) -> None:
         self._heard_s = time.monotonic()
         self._let_go()
+        self._interrupt_all_but(None, LOST)
+
+    def _interrupt_all_but(self, run_id: str | None, reason: str) -> None:
         with suppress(SQLAlchemyError):
-            self._runs.interrupt_all_but(None, LOST)
+            self._runs.interrupt_all_but(run_id, reason)
 
     def _write(self) -> None:
         self._written_s = time.monotonic()
