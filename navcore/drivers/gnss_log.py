@@ -1,10 +1,13 @@
-"""A recorded receiver log -> all of its epochs, and all that was refused."""
+"""A recorded receiver log -> its epochs one after the other, and what was refused."""
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from navcore.drivers.log_kinds import kind_of
 from navcore.drivers.nmea_stream import NmeaStream, NmeaStreamParams, Refusal
 from navcore.drivers.sentence import Refused
 from navcore.errors import LogError
@@ -13,74 +16,81 @@ from navcore.messages import GnssFix
 PORTION_BYTES = 65_536
 SNIFFED_BYTES = 1_048_576
 GPS_FIRST_YEAR = 1980
-SIGNATURES = (
-    (b"SOURCETABLE 200", "an NTRIP caster's answer"),
-    (b"ICY 200 OK", "an NTRIP caster's answer"),
-    (b"HTTP/1.", "an NTRIP caster's answer"),
-    (b"\nSTR;", "an NTRIP caster's list of streams"),
-    (b"\nCAS;", "an NTRIP caster's list of streams"),
-    (b"\xb5\x62", "u-blox UBX"),
-    (b"\xa0\xa2", "SiRF binary"),
-    (b"\x02\x99\x66", "NavCom binary"),
-    (b"\x10\x03\x10", "Trimble TSIP"),
-    (b"\xd3\x00", "RTCM 3 corrections"),
-    (b"\xaa\x44", "NovAtel or Unicore binary"),
-)
+KEPT_REFUSALS = 10_000
+FILE = NmeaStreamParams(live=False, close_early=False, earliest_year=GPS_FIRST_YEAR, remembered=PORTION_BYTES)
 
 
 @dataclass(frozen=True, slots=True)
-class GnssLog:
-    """What the parser made of a log.
+class LoggedEpoch:
+    """One epoch of a log.
 
     Attributes:
-        epochs: one fix for each epoch; their stamps mean nothing, as arrival times are not recorded.
-        refused: everything that was no evidence, in order.
+        fix: its stamp means nothing, as arrival times are not recorded.
+        clock_ns: UTC time of day, also where no sentence told the date yet.
+    """
+
+    fix: GnssFix
+    clock_ns: int | None
+
+
+class GnssLog:
+    """Reads a log of NMEA or Unicore text portion by portion, so that memory does not grow with it.
+
+    Binary between the sentences is passed over and counted.
+
+    Attributes:
+        refused: what was no evidence, in order; the first KEPT_REFUSALS of them.
+        refused_counts: how often each reason occurred, in all.
         unused: valid sentences that carry nothing we need, by kind.
     """
 
-    epochs: tuple[GnssFix, ...]
-    refused: tuple[Refusal, ...]
-    unused: dict[str, int]
+    def __init__(self, path: Path, params: NmeaStreamParams = FILE) -> None:
+        self._path = path
+        self._stream = NmeaStream(params)
+        self.refused: list[Refusal] = []
 
+    @property
+    def refused_counts(self) -> Counter[Refused]:
+        return self._stream.refused_counts
 
-def read_gnss_log(path: Path, params: NmeaStreamParams | None = None) -> GnssLog:
-    """Read a log of NMEA or Unicore text; binary between the sentences is passed over and counted.
+    @property
+    def unused(self) -> dict[str, int]:
+        return dict(sorted(self._stream.unused.items()))
 
-    Raises:
-        LogError: if the file cannot be read or holds no such text.
-    """
-    stream = NmeaStream(params or NmeaStreamParams(live=False, close_early=False, earliest_year=GPS_FIRST_YEAR))
-    epochs: list[GnssFix] = []
-    refused: list[Refusal] = []
-    try:
-        with path.open("rb") as file:
-            start = file.read(SNIFFED_BYTES)
-            file.seek(0)
-            while portion := file.read(PORTION_BYTES):
-                epochs += stream.feed(portion, 0)
-                refused += _drain(stream)
-    except OSError as error:
-        raise LogError(f"Cannot read {path}: {error.strerror}. Check the path and its permissions.") from error
-    epochs += stream.flush(0)
-    refused += _drain(stream)
-    if not _holds_text(stream):
-        raise LogError(_why_not(path, start))
-    return GnssLog(tuple(epochs), tuple(refused), dict(sorted(stream.unused.items())))
+    def epochs(self) -> Iterator[LoggedEpoch]:
+        """All of them, once.
 
+        Raises:
+            LogError: if the file cannot be read, or, at its end, if it held no such text.
+        """
+        start = b""
+        try:
+            with self._path.open("rb") as file:
+                while portion := file.read(PORTION_BYTES):
+                    start += portion[: SNIFFED_BYTES - len(start)]
+                    yield from self._taken(self._stream.feed(portion, 0))
+        except OSError as error:
+            raise LogError(f"Cannot read {self._path}: {error.strerror}. Check path and permissions.") from error
+        yield from self._taken(self._stream.flush(0))
+        if not self._holds_text():
+            raise LogError(self._why_not(start))
 
-def _drain(stream: NmeaStream) -> list[Refusal]:
-    refused = list(stream.refusals)
-    stream.refusals.clear()
-    return refused
+    def _taken(self, fixes: list[GnssFix]) -> Iterator[LoggedEpoch]:
+        clocks, refusals = list(self._stream.clocks_ns), list(self._stream.refusals)
+        self._stream.clocks_ns.clear()
+        self._stream.refusals.clear()
+        self.refused += refusals[: KEPT_REFUSALS - len(self.refused)]
+        yield from map(LoggedEpoch, fixes, clocks)
 
+    def _holds_text(self) -> bool:
+        """Sentences, or at least lines that wanted to be some, between which nothing else stood."""
+        counts = self._stream.refused_counts
+        broken = counts[Refused.TRUNCATED] + counts[Refused.MALFORMED]
+        return bool(self._stream.sentences or counts[Refused.CHECKSUM] or (broken and not counts[Refused.NOT_TEXT]))
 
-def _holds_text(stream: NmeaStream) -> bool:
-    return stream.sentences > 0 or stream.refused_counts[Refused.CHECKSUM] > 0
-
-
-def _why_not(path: Path, start: bytes) -> str:
-    if not start:
-        return f"{path} is empty; record the receiver's NMEA output and try again."
-    kind = next((name for mark, name in SIGNATURES if mark in start), None)
-    seems = f"it looks like {kind}" if kind else "it is of no kind known here"
-    return f"{path} holds no NMEA or Unicore text ({seems}); switch the receiver to NMEA output and record again."
+    def _why_not(self, start: bytes) -> str:
+        if not start:
+            return f"{self._path} is empty; record the receiver's NMEA output and try again."
+        kind, advice = kind_of(start)
+        seems = f"it looks like {kind}" if kind else "it is of no kind known here"
+        return f"{self._path} holds no NMEA or Unicore text ({seems}); {advice}."

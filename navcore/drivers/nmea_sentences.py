@@ -21,14 +21,18 @@ MODE_QUALITY = {
     "F": FixQuality.RTK_FLOAT,
     "E": FixQuality.DEAD_RECKONING,
 }
+INVENTED_QUALITIES, INVENTED_MODES = (7, 8), frozenset("MS")
+"""Manual input and simulator: no satellite's word."""
 BEST_FIRST = "RFPDAE"
 
 
 def gga_quality(f: Fields, i: int) -> FixQuality:
-    """GGA field 6; 7 (manual) and 8 (simulator) are no satellites' word."""
+    """GGA field 6."""
     value = f.integer(i)
     if value is None:
         return FixQuality.NONE
+    if value in INVENTED_QUALITIES:
+        raise SentenceError(Refused.NOT_MEASURED)
     if value not in FixQuality.__members__.values():
         raise SentenceError(Refused.MALFORMED)
     return FixQuality(value)
@@ -38,6 +42,8 @@ def mode_quality(modes: str) -> FixQuality | None:
     """Mode indicator of RMC, GLL, VTG; GNS has one letter for each constellation, of which the best counts."""
     if not modes:
         return None
+    if set(modes) & INVENTED_MODES:
+        raise SentenceError(Refused.NOT_MEASURED)
     if set(modes) - set(MODE_QUALITY):
         raise SentenceError(Refused.MALFORMED)
     best = next((m for m in BEST_FIRST if m in modes), "N")

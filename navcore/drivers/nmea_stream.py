@@ -70,6 +70,7 @@ class NmeaStream:
     Attributes:
         refused_counts: how often each reason occurred.
         refusals: the newest of them with their text.
+        clocks_ns: UTC time of day of the newest fixes handed out, one for each; None where nothing told it.
         unused: valid sentences that say nothing we need, by kind.
         sentences: number of valid sentences.
         lines: number of lines that wanted to be sentences.
@@ -86,6 +87,7 @@ class NmeaStream:
         self._newest_ns: int | None = None
         self.refused_counts: Counter[Refused] = Counter()
         self.refusals: deque[Refusal] = deque(maxlen=self._params.remembered)
+        self.clocks_ns: deque[int | None] = deque(maxlen=self._params.remembered)
         self.unused: Counter[str] = Counter()
         self.sentences = 0
         self.lines = 0
@@ -185,6 +187,7 @@ class NmeaStream:
         self._closing.learn(epoch)
         fix = self._fix(epoch)
         if fix is not None:
+            self.clocks_ns.append(epoch.clock_ns)
             yield fix
 
     def _fix(self, epoch: Epoch) -> GnssFix | None:

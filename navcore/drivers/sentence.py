@@ -27,6 +27,7 @@ class Refused(StrEnum):
     TRUNCATED = "truncated: no checksum at its end"
     TOO_LONG = "longer than any sentence"
     NOT_TEXT = "not text"
+    NOT_MEASURED = "position typed in or simulated, not measured"
     MALFORMED = "a field is not what the sentence demands"
     TALKER = "talker is no satellite receiver"
     ZERO_POSITION = "position 0, 0"

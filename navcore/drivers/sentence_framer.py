@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import re
+from codecs import BOM_UTF8
 from collections.abc import Iterator
 from dataclasses import dataclass
 
 MAX_SENTENCE_BYTES = 4096
 CUT = re.compile(rb"[^\x20-\x7e]|\$")
 SENTENCE_START = re.compile(rb"\$P?[A-Z]{2}[A-Z0-9]{2,}|#[A-Z0-9]{4,}A,")
+HASH_START = re.compile(rb"#[A-Z0-9]{4,}A,")
 BINARY = re.compile(rb"[^\x20-\x7e\r\n\t]")
 
 
@@ -32,7 +34,8 @@ class Line:
 class SentenceFramer:
     """Cuts a byte stream at line ends, at binary, and wherever a `$` starts a new sentence.
 
-    Text that is no sentence (comments, JSON) passes silently. Time and memory are linear in what is fed.
+    Text that is no sentence (comments, JSON, a prompt before a `#`) passes silently. Time and memory are linear in
+    what is fed.
     """
 
     def __init__(self) -> None:
@@ -74,9 +77,10 @@ class SentenceFramer:
         piece, size = bytes(self._piece), self._piece_size
         self._piece.clear()
         self._piece_size = 0
-        if SENTENCE_START.match(piece):
+        found = SENTENCE_START.match(piece) or HASH_START.search(piece)
+        if found:
             yield from self._end_binary()
-            yield Line(self._offset, piece, True, size)
+            yield Line(self._offset + found.start(), piece[found.start() :], True, size - found.start())
         elif self._binary:
             self._binary_size += size
         self._offset += size
@@ -84,9 +88,13 @@ class SentenceFramer:
     def _set_aside(self, byte: bytes) -> None:
         if self._binary:
             self._binary_size += 1
-        elif BINARY.match(byte):
+        elif BINARY.match(byte) and not self._is_byte_order_mark(byte):
             self._binary += byte
             self._binary_offset, self._binary_size = self._offset, 1
+
+    def _is_byte_order_mark(self, byte: bytes) -> bool:
+        """Editors begin text with the three bytes of U+FEFF."""
+        return self._offset < len(BOM_UTF8) and byte[0] == BOM_UTF8[self._offset]
 
     def _end_binary(self) -> Iterator[Line]:
         if self._binary:

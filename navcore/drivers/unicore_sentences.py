@@ -17,7 +17,14 @@ from navcore.errors import SentenceError
 from navcore.messages import FixQuality
 
 GPS_START = date(1980, 1, 6)
-GPS_LEAP_S = 18
+LEAP_SECONDS = (
+    (date(2017, 1, 1), 18), (date(2015, 7, 1), 17), (date(2012, 7, 1), 16), (date(2009, 1, 1), 15),
+    (date(2006, 1, 1), 14), (date(1999, 1, 1), 13),
+)  # fmt: skip
+"""From when on GPS time was how much ahead of UTC (IERS Bulletin C)."""
+EARLIEST_LEAP_S = 12
+BDS_FIRST_WEEK, BDS_BEHIND_S = 1356, 14
+"""BeiDou time began at this GPS week, and runs so much behind GPS time (BDS-SIS-ICD)."""
 WEEK_NS = 7 * 86_400 * NS_PER_S
 DAY_NS = 86_400 * NS_PER_S
 SOLVED = "SOL_COMPUTED"
@@ -30,12 +37,19 @@ POSITION_TYPES = {
     "WAAS": FixQuality.DIFFERENTIAL,
     "PPP_CONVERGING": FixQuality.DIFFERENTIAL,
     "PPP": FixQuality.DIFFERENTIAL,
+    "PPP_BASIC_CONVERGING": FixQuality.DIFFERENTIAL,
+    "PPP_BASIC": FixQuality.DIFFERENTIAL,
+    "OMNISTAR": FixQuality.DIFFERENTIAL,
+    "OMNISTAR_HP": FixQuality.DIFFERENTIAL,
+    "OMNISTAR_XP": FixQuality.DIFFERENTIAL,
     "L1_FLOAT": FixQuality.RTK_FLOAT,
     "IONOFREE_FLOAT": FixQuality.RTK_FLOAT,
     "NARROW_FLOAT": FixQuality.RTK_FLOAT,
     "L1_INT": FixQuality.RTK_FIXED,
     "WIDE_INT": FixQuality.RTK_FIXED,
     "NARROW_INT": FixQuality.RTK_FIXED,
+    "PROPAGATED": FixQuality.DEAD_RECKONING,
+    "INS": FixQuality.DEAD_RECKONING,
 }
 When = tuple[date, int]
 
@@ -62,9 +76,20 @@ def _utc(header: tuple[str, ...], f: Fields) -> When:
         week, week_ns = fields.integer(4), _nanoseconds(header[5] if len(header) > 5 else "")
     if week is None or not 0 < week < 9999 or not 0 <= week_ns < WEEK_NS:
         raise SentenceError(Refused.TIME)
-    days, clock_ns = divmod(week_ns - GPS_LEAP_S * NS_PER_S, DAY_NS)
+    if header[1] == "BDS" and week < BDS_FIRST_WEEK:  # no week of GPS: there was no BeiDou then
+        week, week_ns = week + BDS_FIRST_WEEK, week_ns + BDS_BEHIND_S * NS_PER_S
+    days, clock_ns = divmod(week_ns - leap_s(week, week_ns) * NS_PER_S, DAY_NS)
     day = GPS_START + timedelta(weeks=week, days=days)
     return f.calendar_day(day.year, day.month, day.day), clock_ns
+
+
+def leap_s(week: int, week_ns: int) -> int:
+    """By how much GPS time was ahead of UTC then."""
+    seconds = week_ns // NS_PER_S
+    for since, ahead in LEAP_SECONDS:
+        if GPS_START + timedelta(weeks=week, seconds=seconds - ahead) >= since:
+            return ahead
+    return EARLIEST_LEAP_S
 
 
 def _nanoseconds(seconds: str) -> int:
@@ -162,6 +187,8 @@ def agric(kind: str, f: Fields, when: When) -> EpochPart:
 
 
 def _position_type(text: str) -> FixQuality:
+    if text in ("FIXEDPOS", "FIXEDHEIGHT"):
+        raise SentenceError(Refused.NOT_MEASURED)
     if text.startswith("INS_"):
         return FixQuality.DEAD_RECKONING
     if text not in POSITION_TYPES:

@@ -23,7 +23,14 @@ TRIMBLE_QUALITY = {
     3: FixQuality.RTK_FIXED,
     4: FixQuality.DIFFERENTIAL,
     5: FixQuality.DIFFERENTIAL,
+    6: FixQuality.RTK_FLOAT,
+    7: FixQuality.RTK_FIXED,
+    8: FixQuality.RTK_FLOAT,
+    9: FixQuality.RTK_FIXED,
+    10: FixQuality.DIFFERENTIAL,
+    11: FixQuality.DIFFERENTIAL,
 }
+"""6 to 9: in a network, with and without height; 10, 11: OmniSTAR."""
 KSXT_QUALITY = {0: FixQuality.NONE, 1: FixQuality.SINGLE, 2: FixQuality.RTK_FLOAT, 3: FixQuality.RTK_FIXED}
 KSXT_HEADING_FIXED = 3
 HPR_FIXED = 4

@@ -24,3 +24,13 @@ def rmc(clock: str, day: str = "060321", status: str = "A") -> bytes:
 def hdt(heading_deg: float) -> bytes:
     """True heading."""
     return sentence(f"GNHDT,{heading_deg:.2f},T")
+
+
+def hash_log(content: str) -> bytes:
+    """`#content*hhhhhhhh` with its CRC-32, bit by bit as in NovAtel's manual."""
+    crc = 0
+    for byte in content.encode("ascii"):
+        crc ^= byte
+        for _ in range(8):
+            crc = (crc >> 1) ^ (0xEDB88320 if crc & 1 else 0)
+    return f"#{content}*{crc:08x}\r\n".encode("ascii")
