@@ -160,10 +160,19 @@ def test_a_broken_body_is_refused_in_a_sentence(client: TestClient, body: bytes)
         assert answer.json()["message"]
 
 
-def test_a_lone_surrogate_in_geojson_is_refused(client: TestClient) -> None:
-    body = '{"type":"FeatureCollection","features":[],"name":"\\ud800"}'
-    answer = client.post("/api/sites/import", content=body, headers={"Content-Type": "application/json"})
-    assert answer.status_code == 422
+def test_half_a_character_is_refused_wherever_it_stands(client: TestClient, stored: dict[str, Any]) -> None:
+    farm = f"/api/sites/{stored['id']}"
+    mission = '{"mission":{"id":"","name":"\\ud800","outbound":[],"visits":[],"inbound":[]}}'
+    for address, body in (
+        ("/api/sites/import", '{"type":"FeatureCollection","features":[],"name":"\\ud800"}'),
+        ("/api/sites", json.dumps({"site": stored["site"] | {"name": "\ud800"}})),
+        (f"{farm}/missions", mission),
+        (f"{farm}/preview", mission),
+        (f"{farm}/missions/for-row", '{"row_id":"\\ud800"}'),
+    ):
+        answer = client.post(address, content=body, headers={"Content-Type": "application/json"})
+        assert answer.status_code == 422, address
+        assert "broken" in answer.text, address
 
 
 def test_a_body_beyond_the_limit_is_refused(client: TestClient) -> None:
