@@ -69,7 +69,8 @@ class CommandHistory:
 
         `turn_gain` is the share of a commanded turn rate that reaches the ground.
         """
-        pose, v, omega = SE2(), motion.v, motion.omega
+        v, omega = motion.v, motion.omega
+        arcs: list[tuple[float, float]] = []
         steps = max(round(horizon / self._params.step), 1)
         dt = horizon / steps
         keep = exp(-dt / self._params.lag)
@@ -77,6 +78,6 @@ class CommandHistory:
             told = self.acting_at(now_ns + round(k * dt * 1e9)) or (v, omega / turn_gain)
             v_next = told[0] + (v - told[0]) * keep
             omega_next = turn_gain * told[1] + (omega - turn_gain * told[1]) * keep
-            pose = pose @ SE2.arc(0.5 * (v + v_next) * dt, 0.5 * (omega + omega_next) * dt)
+            arcs.append((0.5 * (v + v_next) * dt, 0.5 * (omega + omega_next) * dt))
             v, omega = v_next, omega_next
-        return Predicted(T_now_then=pose, motion=Motion(v=v, omega=omega))
+        return Predicted(T_now_then=SE2.along_arcs(arcs), motion=Motion(v=v, omega=omega))

@@ -8,6 +8,8 @@ from dataclasses import dataclass
 
 from navcore.control.target_line import TargetLine
 
+TURNING, LEANING = "curve ahead: turn rate is limited", "curve ahead: sideways pull"
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SpeedLimit:
@@ -68,24 +70,24 @@ def stopping_distance(v: float, params: SpeedRegulationParams) -> float:
     return v * params.reaction + v * v / (2.0 * params.braking)
 
 
-def curve_speed(curvature: float, turn_gain: float, params: SpeedRegulationParams) -> SpeedLimit:
-    """What a curve (1/m) allows by turn rate on this ground and by lateral acceleration."""
+def curve_speed(curvature: float, turn_gain: float, params: SpeedRegulationParams) -> tuple[float, str]:
+    """What a curve (1/m) allows by turn rate on this ground and by lateral acceleration, m/s, and which of them."""
     k = max(abs(curvature), 1e-6)
-    turning = SpeedLimit(
-        speed=params.turn_share * params.max_turn_rate * turn_gain / k, reason="curve ahead: turn rate is limited"
-    )
-    leaning = SpeedLimit(speed=math.sqrt(params.max_lateral_acceleration / k), reason="curve ahead: sideways pull")
-    return tightest((turning, leaning))
+    turning = params.turn_share * params.max_turn_rate * turn_gain / k
+    leaning = math.sqrt(params.max_lateral_acceleration / k)
+    return (turning, TURNING) if turning <= leaning else (leaning, LEANING)
 
 
 def curve_limit(target: TargetLine, turn_gain: float, params: SpeedRegulationParams) -> SpeedLimit:
     """The tightest curve within the preview, each reached by braking until there."""
-    limits = []
+    tightest_speed, why = math.inf, TURNING
     for k in range(math.ceil(params.preview / params.preview_step) + 1):
         ahead = k * params.preview_step
-        there = curve_speed(target.curvature_ahead(ahead), turn_gain, params)
-        limits.append(SpeedLimit(speed=braking_speed(ahead, there.speed, params), reason=there.reason))
-    return tightest(limits)
+        there, reason = curve_speed(target.curvature_ahead(ahead), turn_gain, params)
+        speed = braking_speed(ahead, there, params)
+        if speed < tightest_speed:
+            tightest_speed, why = speed, reason
+    return SpeedLimit(speed=tightest_speed, reason=why)
 
 
 def end_limit(remaining: float | None, params: SpeedRegulationParams, end_speed: float = 0.0) -> SpeedLimit:

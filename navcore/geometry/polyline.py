@@ -104,14 +104,14 @@ class Polyline:
         return first, max(min(bisect_left(self._s_list, near_s + window), count), first + 1)
 
     def _projection(self, index: int, along: float, x: float, y: float) -> Projection:
-        ux, uy = float(self._ux[index]), float(self._uy[index])
-        px, py = float(self._x[index]) + along * ux, float(self._y[index]) + along * uy
+        ux, uy = self._ux.item(index), self._uy.item(index)
+        px, py = self._x.item(index) + along * ux, self._y.item(index) + along * uy
         dx, dy = x - px, y - py
         cross, past = ux * dy - uy * dx, ux * dx + uy * dy
         s = self._s_list[index] + along
         at_end = (s >= self._s_list[-1] and past > 0.0) or (s <= 0.0 and past < 0.0)
         lateral = cross if at_end else math.copysign(math.hypot(dx, dy), cross)
-        return Projection(s, lateral, float(self._heading[index]), px, py, past if at_end else 0.0)
+        return Projection(s, lateral, self._heading.item(index), px, py, past if at_end else 0.0)
 
     def _segment(self, s: float) -> int:
         return min(max(bisect_right(self._s_list, s) - 1, 0), len(self._s_list) - 2)
@@ -142,9 +142,9 @@ class Polyline:
         if not 0.0 <= s <= self.length:
             return 0.0
         i = self._segment(s)
-        step = self._lengths[i]
+        step = self._lengths.item(i)
         share = (s - self._s_list[i]) / step if step > 0.0 else 0.0
-        return float((1.0 - share) * self._curvature[i] + share * self._curvature[i + 1])
+        return float((1.0 - share) * self._curvature.item(i) + share * self._curvature.item(i + 1))
 
     @property
     def curvatures(self) -> Floats:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -54,7 +55,23 @@ class SE2:
     @staticmethod
     def arc(distance: float, turn: float) -> SE2:
         """Motion along a circular arc: `distance` driven (m, negative backwards) while the yaw changes by `turn`."""
-        if abs(turn) < 1e-9:
-            return SE2(distance, 0.5 * distance * turn, turn)
-        radius = distance / turn
-        return SE2(radius * math.sin(turn), radius * (1.0 - math.cos(turn)), wrap(turn))
+        return SE2(*_arc(distance, turn))
+
+    @staticmethod
+    def along_arcs(arcs: Iterable[tuple[float, float]]) -> SE2:
+        """The pose behind arcs (distance, turn) driven one after the other: the product of their `arc`, bit for bit,
+        without an object for each.
+        """
+        x = y = yaw = 0.0
+        for distance, turn in arcs:
+            c, s = math.cos(yaw), math.sin(yaw)
+            dx, dy, turned = _arc(distance, turn)
+            x, y, yaw = x + c * dx - s * dy, y + s * dx + c * dy, wrap(yaw + turned)
+        return SE2(x, y, yaw)
+
+
+def _arc(distance: float, turn: float) -> tuple[float, float, float]:
+    if abs(turn) < 1e-9:
+        return distance, 0.5 * distance * turn, turn
+    radius = distance / turn
+    return radius * math.sin(turn), radius * (1.0 - math.cos(turn)), wrap(turn)

@@ -45,6 +45,7 @@ class BeliefHistory:
         self._propagate = propagate
         self._events: list[Event] = []
         self._base: Belief | None = None
+        self._asked: tuple[Belief, Belief] | None = None
 
     @property
     def newest(self) -> Belief | None:
@@ -87,14 +88,19 @@ class BeliefHistory:
         return verdicts
 
     def at(self, stamp_ns: int) -> Belief | None:
-        """Belief at a time, predicted from the last event before it; None before the first belief."""
+        """Belief at a time, predicted from the last event before it; None before the first belief. Not to be changed:
+        whoever asks again for the same time is given the same.
+        """
         if self._base is None or stamp_ns < self._base.stamp_ns:
             return None
         index = self._place(stamp_ns)
         before = self._events[index - 1].after if index else self._base
         assert before is not None
+        if self._asked is not None and self._asked[0] is before and self._asked[1].stamp_ns == stamp_ns:
+            return self._asked[1]
         belief = before.copy()
         self._propagate(belief, stamp_ns)
+        self._asked = before, belief
         return belief
 
     def _run_from(self, index: int) -> list[Verdict]:

@@ -54,11 +54,11 @@ def test_a_tight_curve_is_driven_no_faster_than_the_robot_can_turn() -> None:
     here = P.turn_share * P.max_turn_rate * 0.5
     assert here < limit.speed < braking_speed(0.2, here, P)
     assert "curve" in limit.reason
-    assert curve_speed(0.0, 0.5, P).speed > 100.0
+    assert curve_speed(0.0, 0.5, P)[0] > 100.0
 
 
 def test_lateral_acceleration_counts_where_turning_is_easy() -> None:
-    assert curve_speed(0.01, 1.0, P).speed == pytest.approx(math.sqrt(50.0))
+    assert curve_speed(0.01, 1.0, P)[0] == pytest.approx(math.sqrt(50.0))
 
 
 def test_the_end_is_reached_by_braking_and_crawling() -> None:

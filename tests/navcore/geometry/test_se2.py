@@ -56,3 +56,11 @@ def test_an_arc_is_driven_in_parts_as_in_one(distance: float, turn: float, share
 def test_a_quarter_turn_to_the_left_ends_ahead_and_left() -> None:
     end = SE2.arc(math.pi / 2, math.pi / 2)
     np.testing.assert_allclose((end.x, end.y, end.yaw), (1.0, 1.0, math.pi / 2), atol=1e-12)
+
+
+@given(st.lists(st.tuples(st.floats(-1.0, 1.0), st.one_of(st.just(0.0), st.floats(-1.0, 1.0))), max_size=20))
+def test_arcs_in_a_row_end_where_their_product_does(arcs: list[tuple[float, float]]) -> None:
+    pose = SE2()
+    for distance, turn in arcs:
+        pose = pose @ SE2.arc(distance, turn)
+    assert SE2.along_arcs(arcs) == pose
