@@ -24,8 +24,7 @@ class PropertyReader:
         value = number(given)
         if value is None or not low <= value <= high:
             self._problems.add(
-                f'"{name}" of {self._feature.label} is {str(given)[:40]}; '
-                f"it must be a number from {low:g} to {high:g}."
+                f'"{name}" of {self._feature.label} is {_shown(given)}; it must be a number from {low:g} to {high:g}.'
             )
             return default
         return value
@@ -47,7 +46,7 @@ class PropertyReader:
         given = self._feature.properties.get(name, default)
         if given not in choices:
             known = ", ".join(choices)
-            self._problems.add(f'"{name}" of {self._feature.label} is {str(given)[:40]}; it must be one of: {known}.')
+            self._problems.add(f'"{name}" of {self._feature.label} is {_shown(given)}; it must be one of: {known}.')
             return default or choices[0]
         return str(given)
 
@@ -65,3 +64,8 @@ class PropertyReader:
         if self._left:
             names = ", ".join(sorted(map(str, self._left)))
             self._problems.notes.append(f"Not used of {self._feature.label}: {names}.")
+
+
+def _shown(value: object) -> str:
+    """As written in the file: a number in quotes is a text."""
+    return f'the text "{value[:40]}"' if isinstance(value, str) else str(value)[:40]

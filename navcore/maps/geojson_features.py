@@ -12,7 +12,8 @@ import shapely
 # lon_deg, lat_deg
 Position = tuple[float, float]
 
-_CRS_NAMES = ("CRS84", "4326", "WGS84", "WGS 84")
+_WGS84 = ("CRS84", "4326", "WGS84", "WGS 84")
+_ETRS89 = "4258"
 # More problems than this are not listed; nobody reads them.
 _MOST_PROBLEMS = 30
 
@@ -34,6 +35,11 @@ class ReadFeature:
     positions: tuple[Position, ...]
     properties: dict[str, Any]
 
+    @property
+    def title(self) -> str:
+        """The label at the beginning of a sentence; names keep their letters."""
+        return self.label[:1].upper() + self.label[1:]
+
 
 @dataclass(slots=True)
 class Problems:
@@ -49,12 +55,13 @@ class Problems:
 
 
 def read_features(document: object, problems: Problems) -> list[ReadFeature]:
-    """Features of a FeatureCollection; those with problems are left out and named."""
-    if not isinstance(document, dict) or document.get("type") != "FeatureCollection":
+    """Features of a FeatureCollection, or one Feature alone; those with problems are left out and named."""
+    kind = document.get("type") if isinstance(document, dict) else None
+    if not isinstance(document, dict) or kind not in ("FeatureCollection", "Feature"):
         problems.add('The file is no GeoJSON FeatureCollection: its "type" must be "FeatureCollection".')
         return []
     _check_crs(document.get("crs"), problems)
-    features = document.get("features")
+    features = document.get("features") if kind == "FeatureCollection" else [document]
     if not isinstance(features, list):
         problems.add('The FeatureCollection has no list of "features".')
         return []
@@ -64,8 +71,14 @@ def read_features(document: object, problems: Problems) -> list[ReadFeature]:
 
 def _check_crs(crs: object, problems: Problems) -> None:
     """GeoJSON of 2008 could name another system; such a file would land elsewhere on Earth."""
-    if crs is not None and not any(name in str(crs) for name in _CRS_NAMES):
+    if crs is not None and not any(name in str(crs) for name in (*_WGS84, _ETRS89)):
         problems.add("The file names a coordinate system other than WGS 84. Export it as WGS 84 (EPSG:4326).")
+
+
+def frame_of(document: object) -> str:
+    """Geodetic datum of the positions: RFC 7946 knows WGS 84 alone, but Europe's programs also write ETRS89."""
+    crs = document.get("crs") if isinstance(document, dict) else None
+    return "ETRS89" if _ETRS89 in str(crs) else "WGS 84"
 
 
 def _read(number: int, item: object, problems: Problems) -> ReadFeature | None:
@@ -87,7 +100,14 @@ def _read(number: int, item: object, problems: Problems) -> ReadFeature | None:
 
 
 def _geometry(geometry: object, label: str, problems: Problems) -> tuple[str, tuple[Position, ...]] | None:
+    geometry = _single(geometry)
     kind = geometry.get("type") if isinstance(geometry, dict) else None
+    if kind in ("MultiPoint", "MultiLineString", "MultiPolygon"):
+        problems.add(
+            f"The geometry of {label} is a {kind} of several parts. Split it into features of one part each (QGIS: "
+            "Vector, Geometry Tools, Multipart to Singleparts)."
+        )
+        return None
     if not isinstance(geometry, dict) or kind not in ("Point", "LineString", "Polygon"):
         problems.add(
             f"The geometry of {label} is {kind or 'missing'}; it must be a Point, a LineString or a Polygon."
@@ -101,6 +121,16 @@ def _geometry(geometry: object, label: str, problems: Problems) -> tuple[str, tu
     else:
         positions = _ring(coordinates, label, problems)
     return (str(kind), positions) if positions else None
+
+
+def _single(geometry: object) -> object:
+    """A Multi geometry of one part, as many programs write all of theirs, is that part."""
+    if not isinstance(geometry, dict):
+        return geometry
+    kind, parts = geometry.get("type"), geometry.get("coordinates")
+    if isinstance(kind, str) and kind.startswith("Multi") and isinstance(parts, list) and len(parts) == 1:
+        return {"type": kind.removeprefix("Multi"), "coordinates": parts[0]}
+    return geometry
 
 
 def _line(coordinates: object, label: str, problems: Problems) -> tuple[Position, ...]:
@@ -138,7 +168,8 @@ def _positions(coordinates: object, label: str, problems: Problems) -> tuple[Pos
     positions = [_position(item) for item in coordinates]
     if any(p is None for p in positions):
         problems.add(
-            f"The coordinates of {label} must be finite numbers: longitude -180 to 180, then latitude -90 to 90."
+            f"The coordinates of {label} must be degrees, finite numbers: longitude -180 to 180, then latitude -90 "
+            "to 90. Export the file as WGS 84 (EPSG:4326)."
         )
         return ()
     return tuple(p for p in positions if p is not None)

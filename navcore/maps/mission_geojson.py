@@ -63,7 +63,7 @@ def mission_from_geojson(document: object, site: SiteMap) -> Mission:
         elif kind == "visit" and feature.geometry == "LineString":
             visits.append(_visit(feature, order, site, problems))
         else:
-            problems.add(f"{feature.label.capitalize()} must be a waypoint (Point) or a visit (LineString).")
+            problems.add(f"{feature.title} must be a waypoint (Point) or a visit (LineString).")
     _check_numbers({**points, "visits": visits}, problems)
     if problems.found:
         raise MissionError(problems.found)
@@ -89,7 +89,7 @@ def _visit(feature: ReadFeature, order: int, site: SiteMap, problems: Problems) 
     read = PropertyReader(feature, problems)
     row_id = read.text("row_id")
     if all(row.id != row_id for row in site.rows):
-        problems.add(f'{feature.label.capitalize()} names row "{row_id[:60]}", which the site does not have.')
+        problems.add(f'{feature.title} names row "{row_id[:60]}", which the site does not have.')
     exits = tuple(choice.value for choice in RowExit)
     visit = RowVisit(
         row_id=row_id, from_start=read.truth("from_start", True),

@@ -74,5 +74,9 @@ def _is_counter_clockwise(points: tuple[Point, ...]) -> bool:
 
 
 def _to_position(point: Point, frame: EnuFrame) -> list[float]:
-    lat, lon, _ = frame.to_geodetic(point[0], point[1], 0.0)
+    """At the datum's ellipsoidal height, where `import_site` takes it: the ellipsoid leaves the tangent plane."""
+    up = 0.0
+    for _ in range(3):
+        lat, lon, height = frame.to_geodetic(point[0], point[1], up)
+        up += frame.height_m - height
     return [round(lon, 10), round(lat, 10)]

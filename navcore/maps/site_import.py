@@ -11,7 +11,7 @@ import numpy as np
 from navcore.errors import SiteError
 from navcore.geometry.geodesy import EnuFrame
 from navcore.maps.feature_properties import PropertyReader
-from navcore.maps.geojson_features import Position, Problems, ReadFeature, number, read_features
+from navcore.maps.geojson_features import Position, Problems, ReadFeature, frame_of, number, read_features
 from navcore.maps.site_map import Datum, Lane, Plant, PlantKind, Point, Row, SiteMap, Warehouse, Zone, ZoneKind
 from navcore.maps.survey import is_survey, surveyed_rows
 
@@ -50,7 +50,16 @@ def import_site(document: object, *, datum: Datum | None = None) -> ImportedSite
         site = _filled(site, features, problems)
     if problems.found:
         raise SiteError("The site cannot be imported. " + " ".join(problems.found), problems.found)
+    if datum is None and "datum" not in _member(document):
+        problems.notes.append(_place(origin))
     return ImportedSite(site, tuple(problems.notes))
+
+
+def _place(datum: Datum) -> str:
+    """Where other programs' files have put the site: swapped coordinates can only be seen."""
+    lat, lon = datum.lat_deg, datum.lon_deg
+    north, east = "N" if lat >= 0.0 else "S", "E" if lon >= 0.0 else "W"
+    return f"The site lies at {abs(lat):.5f} {north}, {abs(lon):.5f} {east}, the middle of its features."
 
 
 def _filled(site: SiteMap, features: list[ReadFeature], problems: Problems) -> SiteMap:
@@ -77,21 +86,21 @@ def _name(document: object) -> str:
 def _datum(document: object, features: list[ReadFeature], problems: Problems) -> Datum:
     given = _member(document).get("datum")
     if given is None:
-        return _middle(features)
+        return _middle(features, frame_of(document))
     values = [number(given.get(key)) for key in ("lat_deg", "lon_deg", "height_m")] if isinstance(given, dict) else []
     lat, lon, height = values if len(values) == 3 else (None, None, None)
     if lat is None or lon is None or height is None or abs(lat) > 90.0 or abs(lon) > 180.0:
         problems.add("The datum needs finite lat_deg, lon_deg and height_m on the Earth.")
-        return _middle(features)
+        return _middle(features, frame_of(document))
     frame, corrections = given.get("frame", "WGS 84"), given.get("corrections", "")
     return Datum(lat_deg=lat, lon_deg=lon, height_m=height, frame=str(frame)[:50], corrections=str(corrections)[:200])
 
 
-def _middle(features: list[ReadFeature]) -> Datum:
+def _middle(features: list[ReadFeature], frame: str) -> Datum:
     """Middle of all positions, for files of other programs; they carry no height."""
     positions = np.array([p for feature in features for p in feature.positions] or [(0.0, 0.0)])
     lon, lat = ((positions.min(axis=0) + positions.max(axis=0)) / 2).round(7).tolist()
-    return Datum(lat_deg=lat, lon_deg=lon, height_m=0.0)
+    return Datum(lat_deg=lat, lon_deg=lon, height_m=0.0, frame=frame)
 
 
 def _check_extent(features: list[ReadFeature], frame: EnuFrame, problems: Problems) -> None:
@@ -115,33 +124,48 @@ class _Reader:
     def __init__(self, frame: EnuFrame, problems: Problems) -> None:
         self._frame, self._problems = frame, problems
         self._ids: set[str] = set()
+        self._nameless: list[str] = []
 
     def site(self, empty: SiteMap, features: list[ReadFeature]) -> SiteMap:
         """All features as one site."""
-        by_kind: dict[str, list[ReadFeature]] = {kind: [] for kind in _GEOMETRY}
-        for feature in features:
-            kind = self._kind(feature)
-            if kind is not None:
-                by_kind[kind].append(feature)
-        houses = [self._warehouse(f) for f in by_kind["warehouse"]]
+        kinds = [(self._kind(feature), feature) for feature in features if not self._is_nameless(feature)]
+        self._note_nameless()
+        houses = [self._warehouse(f) for kind, f in kinds if kind == "warehouse"]
         if len(houses) > 1:
             self._problems.add("The file holds more than one warehouse; a site has one.")
         return SiteMap(
             name=empty.name, datum=empty.datum, warehouse=houses[0] if houses else None,
-            lanes=tuple(self._lane(f) for f in by_kind["lane"]), rows=tuple(self._row(f) for f in by_kind["row"]),
-            zones=tuple(self._zone(f, kind) for kind in ZoneKind for f in by_kind[kind.value]),
-            plants=tuple(self._plant(f) for f in by_kind["plant"]),
+            lanes=tuple(self._lane(f) for kind, f in kinds if kind == "lane"),
+            rows=tuple(self._row(f) for kind, f in kinds if kind == "row"),
+            zones=tuple(self._zone(f, ZoneKind(kind)) for kind, f in kinds if kind in tuple(ZoneKind)),
+            plants=tuple(self._plant(f) for kind, f in kinds if kind == "plant"),
         )  # fmt: skip
 
-    def _kind(self, feature: ReadFeature) -> str | None:
-        kind = feature.properties.get("kind")
-        if not isinstance(kind, str) or kind not in _GEOMETRY:
+    def _is_nameless(self, feature: ReadFeature) -> bool:
+        nameless = feature.properties.get("kind") is None
+        if nameless:
+            self._nameless.append(feature.title)
+        return nameless
+
+    def _note_nameless(self) -> None:
+        """One sentence for all: files of other programs lack it everywhere."""
+        if self._nameless:
+            others = len(self._nameless) - 1
+            who = self._nameless[0] + (f" and {others} more have" if others else " has")
             self._problems.add(
-                f'"kind" of {feature.label} is {str(kind)[:40]}; it must be one of: {", ".join(_GEOMETRY)}.'
+                f'{who} no property "kind", which tells what a feature is. Give each feature one of these: '
+                + ", ".join(f"{kind} ({geometry})" for kind, geometry in _GEOMETRY.items()) + "."
+            )  # fmt: skip
+
+    def _kind(self, feature: ReadFeature) -> str | None:
+        kind = str(feature.properties["kind"]).strip().lower().replace("-", "_").replace(" ", "_")
+        if kind not in _GEOMETRY:
+            self._problems.add(
+                f'"kind" of {feature.label} is {kind[:40]}; it must be one of: {", ".join(_GEOMETRY)}.'
             )
             return None
         if feature.geometry != _GEOMETRY[kind]:
-            self._problems.add(f"{feature.label.capitalize()} is a {kind} and must be a {_GEOMETRY[kind]}.")
+            self._problems.add(f"{feature.title} is a {kind} and must be a {_GEOMETRY[kind]}.")
             return None
         return kind
 

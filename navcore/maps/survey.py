@@ -61,6 +61,7 @@ def surveyed_rows(
     rows = alleys(lines, None)
     if not rows and not problems.found:
         problems.add("The survey holds fewer than two lines of posts side by side, so there is no row to drive.")
+    problems.notes.append(f"{len(lines)} lines of plants: the {len(rows)} alleys between them are the rows to drive.")
     return rows, tuple(Plant(x=p.x, y=p.y, kind=p.kind) for p in points)
 
 
@@ -70,7 +71,7 @@ def _named_points(features: list[ReadFeature], frame: EnuFrame, problems: Proble
         match = _row_name(feature)
         if match is None:
             problems.add(
-                f"{feature.label.capitalize()} is no point with a name such as ROW03POLE02. Remove or name it."
+                f"{feature.title} is no point with a name such as ROW03POLE02. Remove or name it."
             )
             continue
         lon, lat = feature.positions[0]

@@ -19,6 +19,8 @@ from navcore.maps.survey import vines_from_csv
 
 DATUM = Datum(lat_deg=53.2681, lon_deg=-0.5244, height_m=0.0)
 
+LINES = "4 lines of plants: the 3 alleys between them are the rows to drive."
+
 
 def survey(*, lines: int = 4, posts: int = 5, spacing: float = 2.5) -> dict[str, Any]:
     frame, features = EnuFrame(DATUM), []
@@ -37,7 +39,7 @@ def rename(document: dict[str, Any], old: str, new: str) -> None:
 
 def test_the_rows_are_the_alleys_between_the_lines() -> None:
     imported = import_site(survey(), datum=DATUM)
-    assert imported.notes == ()
+    assert imported.notes == (LINES,)
     assert [row.id for row in imported.site.rows] == ["ROW01-ROW02", "ROW02-ROW03", "ROW03-ROW04"]
     row = imported.site.rows[1]
     assert row.start == pytest.approx((3.75, 0.0), abs=1e-3)
@@ -51,7 +53,7 @@ def test_a_post_named_after_the_wrong_row_is_put_where_it_stands() -> None:
     document = survey()
     rename(document, "ROW02POLE03", "ROW04POLE09")
     imported = import_site(document, datum=DATUM)
-    assert len(imported.notes) == 1
+    assert imported.notes[1:] == (LINES,)
     assert "ROW04POLE09" in imported.notes[0]
     assert "stands in ROW02, not in ROW04" in imported.notes[0]
     assert all(row.width == pytest.approx(2.5, abs=1e-3) for row in imported.site.rows)
@@ -61,7 +63,7 @@ def test_a_doubled_number_is_noticed_by_its_place_along_the_row() -> None:
     document = survey()
     rename(document, "ROW03POLE05", "ROW03POLE01")
     imported = import_site(document, datum=DATUM)
-    assert len(imported.notes) == 1
+    assert imported.notes[1:] == (LINES,)
     assert "stands after number 4 of ROW03" in imported.notes[0]
     assert imported.site.rows[2].end == pytest.approx((6.25, -22.0), abs=1e-3)
 
@@ -69,7 +71,7 @@ def test_a_doubled_number_is_noticed_by_its_place_along_the_row() -> None:
 def test_a_gap_in_the_numbers_is_no_fault() -> None:
     document = survey()
     document["features"] = [f for f in document["features"] if f["properties"]["Point"] != "ROW02POLE03"]
-    assert import_site(document, datum=DATUM).notes == ()
+    assert import_site(document, datum=DATUM).notes == (LINES,)
 
 
 def test_a_post_in_no_line_is_refused() -> None:
@@ -108,7 +110,8 @@ def test_the_riseholme_posts_become_nine_rows_and_the_wrong_name_is_said(shared_
     imported = import_site(document)
     rows = imported.site.rows
     assert len(rows) == 9
-    assert len(imported.notes) == 1
+    assert imported.notes[1].startswith("10 lines of plants: the 9 alleys")
+    assert imported.notes[2:] == ("The site lies at 53.26810 N, 0.52443 W, the middle of its features.",)
     assert "ROW07POLE01" in imported.notes[0]
     assert "number 4" in imported.notes[0]
     for row in rows:
