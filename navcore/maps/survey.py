@@ -70,9 +70,7 @@ def _named_points(features: list[ReadFeature], frame: EnuFrame, problems: Proble
     for feature in features:
         match = _row_name(feature)
         if match is None:
-            problems.add(
-                f"{feature.title} is no point with a name such as ROW03POLE02. Remove or name it."
-            )
+            problems.add(f"{feature.title} is no point with a name such as ROW03POLE02. Remove or name it.")
             continue
         lon, lat = feature.positions[0]
         points.append(_point(match, *frame.to_enu(lat, lon, frame.height_m)[:2]))
