@@ -10,6 +10,7 @@ from backend.worker import Worker
 
 PAUSE_S = 3.0
 PATIENCE_S = 3.0
+TIED = "navcore.runtime.tied"  # makes the child end with us, however we end
 
 
 class SceneProcess(Worker):
@@ -41,6 +42,7 @@ def command(settings: Settings) -> list[str]:
     return [
         sys.executable,
         "-m",
+        TIED,
         "backend.scene",
         f"--bus={settings.bus_dir}",
         f"--port={settings.scene_port}",
