@@ -21,6 +21,7 @@ class DeadReckoningParams:
         bias_s: time constant over which the bias is averaged while standing.
         gyro_timeout_s: a gyro silent for longer is replaced by the wheels' turn rate, divided by wheel_turn_ratio.
         ahead_s: a pose is extrapolated at most so far beyond the newest input.
+        most_scale: no more than this share of the wheels' speed is taken for their error.
     """
 
     history_s: float = 10.0
@@ -29,6 +30,7 @@ class DeadReckoningParams:
     gyro_timeout_s: float = 0.1
     wheel_turn_ratio: float = 1.6
     ahead_s: float = 0.5
+    most_scale: float = 0.1
 
 
 class DeadReckoning:
@@ -44,6 +46,12 @@ class DeadReckoning:
         self._gyro_ns: int | None = None
         self._moved_ns: int | None = None
         self._bias = 0.0
+        self._scale = 1.0
+
+    def learn_scale(self, speed_scale: float) -> None:
+        """From now on the wheels' speed is wrong by this share: they slip, and tyres wear."""
+        most = self._p.most_scale
+        self._scale = 1.0 + min(max(speed_scale, -most), most)
 
     def add_wheels(self, stamp_ns: int, v: float, omega: float) -> None:
         """Measured speed, m/s, and turn rate of the wheels, rad/s."""
@@ -90,7 +98,7 @@ class DeadReckoning:
         self._prune(stamp_ns - round(self._p.history_s / NS))
 
     def _motion(self, dt: float, stamp_ns: int) -> SE2:
-        return SE2.arc(self._v * dt, self._rate(stamp_ns) * dt)
+        return SE2.arc(self._v * self._scale * dt, self._rate(stamp_ns) * dt)
 
     def _rate(self, stamp_ns: int) -> float:
         if self._is_still(stamp_ns):

@@ -30,10 +30,11 @@ class IndependentCheckParams:
         worst_std: m, a pose less certain than this stops the robot that drives on it.
         path: m of driving over which displacements are compared; the robot is stopped before it has gone wrong for
             twice as long (hazard 32: 1.0 m).
+        float_path: m, the same where GNSS is only float: its fixes jump by decimetres.
         path_share: displacements may differ by this part of the way driven (slip, wheel scale).
         path_offset: m, and by this much anyway.
-        place_offset: m, filter and receiver may differ by this; for float by float_offset.
-        float_offset: m.
+        place_offset: m, filter and receiver may differ by this.
+        float_offset: m, and by this in either comparison where GNSS is only float.
         patience_s: for how long they may differ by more.
     """
 
@@ -44,6 +45,7 @@ class IndependentCheckParams:
     slow_speed: float = 0.3
     worst_std: float = 0.5
     path: float = 0.5
+    float_path: float = 1.5
     path_share: float = 0.3
     path_offset: float = 0.15
     place_offset: float = 0.3
@@ -195,12 +197,12 @@ class IndependentCheck:
         if start is None or start.quality is not here.quality:
             self._anchor = here
             return
+        p, fixed = self._p, here.quality is FixQuality.RTK_FIXED
         driven = here.leg.driven - start.leg.driven
-        if driven < self._p.path:
+        if driven < (p.path if fixed else p.float_path):
             return
         off = self._path_error(start, here)
-        allowed = self._p.path_share * driven + self._p.path_offset
-        allowed += 0.0 if here.quality is FixQuality.RTK_FIXED else self._p.path_offset
+        allowed = p.path_share * driven + (p.path_offset if fixed else p.float_offset)
         self._path_reason = "" if off <= allowed else f"GNSS and wheels disagree by {off:.1f} m over {driven:.1f} m"
         self._anchor = here
 

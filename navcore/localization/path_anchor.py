@@ -107,6 +107,12 @@ class PathAnchor:
         """Take the pose filter's tie."""
         self.T_map_odom = T_map_odom
 
+    def drift(self, T_odom_before: SE2, T_odom_now: SE2, moved: tuple[float, float]) -> None:
+        """The robot has moved by `moved` m in `map`, whatever the wheels say; its turn is the gyro's."""
+        before, now = self.T_map_odom @ T_odom_before, self.T_map_odom @ T_odom_now
+        slip = SE2(before.x + moved[0] - now.x, before.y + moved[1] - now.y, 0.0)
+        self.T_map_odom = slip @ self.T_map_odom
+
     def see_row(
         self, row: RowLine, T_odom_drive: SE2, offset: float, heading: float, offset_std: float, heading_std: float
     ) -> None:

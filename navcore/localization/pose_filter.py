@@ -12,7 +12,7 @@ import numpy as np
 from navcore.chassis.protocol import ChassisState
 from navcore.geometry.geodesy import EnuFrame
 from navcore.geometry.se2 import SE2
-from navcore.localization.belief import GYRO_BIAS, YAW, Belief, X, Y
+from navcore.localization.belief import GYRO_BIAS, SPEED_SCALE, YAW, Belief, X, Y
 from navcore.localization.belief_history import BeliefHistory, Event
 from navcore.localization.correction import Innovation
 from navcore.localization.dead_reckoning import DeadReckoning, DeadReckoningParams
@@ -123,6 +123,7 @@ class PoseFilter:
             return self._gnss.apply(b, fix, east, north, self._motion.velocity(b).omega)
 
         self._count(self._history.add(Event(fix.stamp_ns, apply)), fix.stamp_ns)
+        self._odometry.learn_scale(float(self._history.newest.mean[SPEED_SCALE]))
 
     def add_row(self, seen: RowObservation, line: SE2) -> None:
         """A row seen by a camera; `line` is a point of its centre line in `map` and its direction, either way."""

@@ -36,6 +36,7 @@ class PilotParams:
         capture: the path counts as reached this close to it, m.
         search: half width of the search for the place on the path, m.
         look_out: the camera is used from this far before a row's entry segment, m.
+        drift_std: position 1-sigma at which GNSS tells how odometry drifts while the path is carried by it, m.
         end_std: 1-sigma of the row end's distance as the camera sees it, m.
         seen_range: plants further away say nothing sure about where the row ends, m.
         seen_share: share of the distance up to which the row is seen to go on that is believed: a camera that pitches
@@ -46,6 +47,7 @@ class PilotParams:
     capture: float = 0.25
     search: float = 3.0
     look_out: float = 4.0
+    drift_std: float = 0.05
     end_std: float = 0.4
     seen_range: float = 7.0
     seen_share: float = 0.9
@@ -73,6 +75,10 @@ class Position:
     gnss_streak: int
     standing: bool
     lean: tuple[float, float] = (0.0, 0.0)
+
+    def surely_at(self, std: float) -> SE2 | None:
+        """The pose if it is known to `std` m."""
+        return self.T_map_base if self.gnss_std is not None and self.gnss_std <= std else None
 
     def gnss_good(self, params: ModeSelectorParams) -> bool:
         """Good enough to say which row is which."""
@@ -153,7 +159,17 @@ class Pilot:
         distance = math.hypot(moved.x, moved.y)
         self.anchor.drive(distance)
         self.carried = self.carried + distance if self.mode in CARRIED else 0.0
+        if self.mode in CARRIED:
+            self._take_drift(self._at, at)
         self._at = at
+
+    def _take_drift(self, before: Position, now: Position) -> None:
+        """Away from plants GNSS says by how much the wheels slip, though not where the row lies on the map."""
+        ends = before.surely_at(self.params.drift_std), now.surely_at(self.params.drift_std)
+        if ends[0] is None or ends[1] is None:
+            return
+        moved = ends[1].x - ends[0].x, ends[1].y - ends[0].y
+        self.anchor.drift(before.T_odom_base, now.T_odom_base, moved)
 
     def _see(self, seen: RowObservation, T_odom_drive: SE2) -> None:
         """Judge what the camera saw by the row that is meant, and correct the anchor while driving on it."""

@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from navcore.localization.gnss_correction import GnssCorrectionParams
@@ -56,6 +57,27 @@ def test_wrong_heading_from_the_start_is_stopped_within_the_first_metre(turn_deg
 
     stopped = [way for way, cap in caps(1, 10.0, straight, flipped) if cap.speed == 0.0 and way > 0.05]
     assert min(stopped) < 1.0
+
+
+def as_float(fix: GnssFix, scatter: np.random.Generator, turn_rad: float = 0.0) -> GnssFix:
+    """The fix without a fixed solution: it scatters by decimetres."""
+    assert fix.heading_rad is not None
+    east, north = scatter.normal(0.0, 0.3, 2)
+    heading = math.remainder(fix.heading_rad + turn_rad, 2 * math.pi)
+    return replace(moved(fix, east, north), quality=FixQuality.RTK_FLOAT, heading_rad=heading)
+
+
+def test_scattering_float_fixes_slow_the_robot_but_never_stop_it() -> None:
+    for seed in range(3):
+        scatter = np.random.default_rng(seed)
+        found = caps(seed, 30.0, change=lambda fix, t, s=scatter: as_float(fix, s) if t >= 8.0 else fix)
+        assert all(cap.speed != 0.0 for _, cap in found[60:])
+
+
+def test_wrong_heading_is_stopped_within_four_metres_on_float_fixes_too() -> None:
+    scatter = np.random.default_rng(7)
+    found = caps(1, 25.0, straight, lambda fix, _: as_float(fix, scatter, math.pi))
+    assert min(way for way, cap in found if cap.speed == 0.0 and way > 0.05) < 4.0  # m
 
 
 @pytest.mark.parametrize("jump", [0.5, 2.0, 30.0])
