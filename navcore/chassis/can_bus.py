@@ -53,8 +53,13 @@ class OneBus:
         ours = not (message.is_error_frame or message.is_extended_id or message.is_remote_frame)
         return Frame(message.arbitration_id if ours else 0, bytes(message.data))
 
-    def close(self) -> None:
-        """Let go of the bus."""
+    def drop(self) -> None:
+        """Close the bus until `open_if_due` opens it again."""
         if self._bus is not None:
             self._bus.shutdown()
             self._bus = None
+
+    def close(self) -> None:
+        """Let go of the bus for good."""
+        self.drop()
+        self._lock.close()

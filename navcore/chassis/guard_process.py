@@ -52,7 +52,12 @@ class GuardProcess:
             self._read(self._read_bus)
             self._read(self._read_command)
         self._send(self._guard.on_stop(time.monotonic_ns()))
+
+    def close(self) -> None:
+        """Let go of bus and sockets."""
         self._bus.close()
+        for own in (self._command, self._stop, self._out):
+            own.close()
 
     def _wait(self, until_ns: int) -> None:
         poll = select.poll()
@@ -123,7 +128,7 @@ class GuardProcess:
             self._fail(error)
 
     def _fail(self, error: Exception) -> None:
-        self._bus.close()
+        self._bus.drop()
         self._guard.on_bus_error(str(error), time.monotonic_ns())
 
 
@@ -168,6 +173,7 @@ def main() -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C in the terminal is the supervisor's, which ends us in order
     be_prompt()
     process.run(lambda: bool(ended))
+    process.close()
 
 
 if __name__ == "__main__":

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import signal
 import socket
 import subprocess
@@ -13,6 +14,7 @@ from pathlib import Path
 
 import pytest
 
+from navcore.chassis.guard import READY
 from navcore.chassis.protocol import GuardRequest, GuardState
 from navcore.transport.stop_client import StopClient
 from tests.navcore.chassis.guard_rig import DEADLINE_S, MS, STOPPED, ChassisModel, Listener, Rig, wait_for
@@ -27,6 +29,19 @@ for seq in range(10):
     now_ns = time.monotonic_ns()
     motion = MotionCommand(v=0.5, omega=0.0, seq=seq, stamp_ns=now_ns, deadline_ns=now_ns + 200_000_000)
     outlet.send(encode_motion(motion))
+"""
+
+# Becomes another user; tries every socket, then one that was opened before.
+FOREIGNER = """
+import contextlib, os, socket, sys, time
+from navcore.chassis.protocol import *
+opened = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM); opened.connect(sys.argv[1])
+os.setgroups([]); os.setgid(65534); os.setuid(65534)
+for path in sys.argv[1:]:
+    with contextlib.suppress(PermissionError), socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as outlet:
+        outlet.connect(path)
+        print(path, flush=True)
+opened.send(encode_request(GuardRequest.ARM, time.monotonic_ns()))
 """
 
 
@@ -167,6 +182,21 @@ def test_a_command_of_a_process_that_did_not_arm_moves_nothing(rig: Rig) -> None
 def test_sockets_of_the_guard_are_private(rig: Rig) -> None:
     for path in (rig.endpoints.guard_command, rig.endpoints.guard_stop):
         assert path.stat().st_mode & 0o777 == 0o600
+
+
+@pytest.mark.skipif(os.geteuid() != 0, reason="only root can become another user")
+def test_32_another_user_of_the_machine_moves_nothing(rig: Rig) -> None:
+    listener = Listener(rig.endpoints)
+    wait_for(lambda: listener.hear().system_stamp_ns > 0, "the chassis' first report")
+    sockets = (str(rig.endpoints.guard_command), str(rig.endpoints.guard_stop))
+    foreigner = subprocess.run(
+        [sys.executable, "-c", FOREIGNER, *sockets], check=True, capture_output=True, text=True
+    )
+    assert foreigner.stdout == ""
+    told = [listener.hear() for _ in range(20)]
+    listener.close()
+    assert {(state.guard, state.guard_reason) for state in told} == {(GuardState.SILENT, READY)}
+    assert rig.chassis.motion_frames == 0
 
 
 def test_a_second_guard_on_the_same_bus_is_refused(rig: Rig) -> None:
