@@ -16,6 +16,10 @@ Blocked = Callable[[Floats], tuple[int, str] | None]
 
 # Cost of each metre of radius given away, m of way: wide turns are driven truer.
 _TIGHTNESS = 1.0
+# Most ways that are not free show it at bodies this far apart, m.
+_COARSE = 3.0
+# So much way is checked at most: what stands across long ways stands across all of them, m.
+_MOST_CHECKED = 30_000.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,9 +63,13 @@ def connect(
     """
     ranked = sorted(_candidates(list(starts), list(goals), radii), key=lambda c: c[0])
     best: Connection | None = None
+    checked = 0.0
     for cost, start, goal, path in ranked[:tries]:
-        if cost > ranked[0][0] + longest:
+        if cost > ranked[0][0] + longest or checked > _MOST_CHECKED:
             break
+        checked += path.length
+        if best is not None and blocked(path.poses(_COARSE)) is not None:
+            continue
         poses = path.poses(step)
         hit = blocked(poses)
         if hit is None:

@@ -19,16 +19,18 @@ Floats = NDArray[np.float64]
 # Corners are passed at this distance, and nothing is passed nearer than the other, m.
 _ROUND = 2.2
 _CLEAR = 1.0
-# Rows nearer to each other than this are one block, m.
-_BLOCK = 3.0
+# Obstacles nearer to each other than this are one block, m; if there are too many blocks, than the next.
+_GAPS = (3.0, 6.0, 12.0, 24.0, 48.0)
+# With more corners than this the ways between them take seconds.
+_MOST_CORNERS = 250
 
 
 def detour(space: FreeSpace, start: Point, goal: Point) -> list[Point] | None:
     """Corners of the shortest way from `start` to `goal` between obstacles, ends left out; None if none."""
-    blocks = _blocks(space)
+    blocks, corners = _blocks_and_corners(space)
     forbidden = blocks.buffer(_CLEAR)
     shapely.prepare(forbidden)
-    places = [start, goal, *_corners(blocks, space)]
+    places = [start, goal, *corners]
     pairs = list(combinations(range(len(places)), 2))
     ways = shapely.linestrings([[places[i], places[j]] for i, j in pairs])
     free = ~shapely.intersects(forbidden, ways)
@@ -41,10 +43,15 @@ def detour(space: FreeSpace, start: Point, goal: Point) -> list[Point] | None:
     return _traced(places, before[0]) if math.isfinite(distances[0][1]) else None
 
 
-def _blocks(space: FreeSpace) -> shapely.Geometry:
-    """Lines of plants side by side as closed blocks, and the keep-out zones."""
-    closed = space.plants.buffer(_BLOCK / 2).buffer(-_BLOCK / 2)
-    return shapely.union_all([closed, space.plants, space.keep_out])
+def _blocks_and_corners(space: FreeSpace) -> tuple[shapely.Geometry, list[Point]]:
+    """Rows side by side as closed blocks, and the keep-out zones, with the places round them."""
+    solid = shapely.union_all([space.alleys, space.plants])
+    for gap in _GAPS:
+        blocks = shapely.union_all([solid.buffer(gap / 2).buffer(-gap / 2), solid, space.keep_out])
+        corners = _corners(blocks, space)
+        if len(corners) <= _MOST_CORNERS:
+            break
+    return blocks, corners[:_MOST_CORNERS]
 
 
 def _corners(blocks: shapely.Geometry, space: FreeSpace) -> list[Point]:

@@ -15,6 +15,8 @@ from navcore.maps.site_map import Lane, Point
 
 # Places closer than this are one node, m.
 _SAME = 0.01
+# A lane recorded by GNSS has corners at every step; what strays less than this from straight is none, m.
+_NOISE = 0.1
 
 
 class LaneGraph:
@@ -25,8 +27,9 @@ class LaneGraph:
     """
 
     def __init__(self, lanes: tuple[Lane, ...], join: float) -> None:
-        self._lanes = [lane for lane in lanes if len(lane.points) > 1]
-        self._lines = [shapely.LineString(lane.points) for lane in self._lanes]
+        drawn = [(lane, _without_noise(lane)) for lane in lanes if len(lane.points) > 1]
+        self._lanes = [lane for lane, line in drawn if line.length > _SAME]
+        self._lines = [line for _, line in drawn if line.length > _SAME]
         self._nodes: list[Point] = []
         self._edges: dict[tuple[int, int], tuple[float, float]] = {}
         stations: list[set[float]] = [self._vertex_stations(line) for line in self._lines]
@@ -158,6 +161,10 @@ class _Extended:
     def _with_speeds(self, way: list[int]) -> list[tuple[Point, float]]:
         speeds = [self._edges[(a, b) if (a, b) in self._edges else (b, a)][1] for a, b in pairwise(way)]
         return [(self._nodes[node], speed) for node, speed in zip(way, [*speeds[:1], *speeds] or [0.8], strict=True)]
+
+
+def _without_noise(lane: Lane) -> shapely.LineString:
+    return shapely.LineString(lane.points).simplify(_NOISE)
 
 
 def _points(shape: shapely.Geometry) -> list[Point]:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from navcore.errors import MissionError
 from navcore.geometry.se2 import SE2
 from navcore.maps.mission import Mission, RowExit, RowVisit, Waypoint
@@ -72,6 +74,7 @@ class _Planner:
     def run(self) -> None:
         """From the warehouse through all rows and back."""
         home = self._home()
+        self._check_home(home)
         departures, place = from_parking(home, self._space, self._params), "from the warehouse"
         waypoints, entered = self._mission.outbound, None
         for index, visit in enumerate(self._mission.visits):
@@ -96,6 +99,14 @@ class _Planner:
         house = self._site.warehouse
         assert house is not None  # input_problems has made sure
         return SE2(house.x, house.y, house.yaw)
+
+    def _check_home(self, home: SE2) -> None:
+        hit = self._space.blocked(np.array([(home.x, home.y, home.yaw)]))
+        if hit is not None:
+            self.draft.problems.append(
+                f"At the warehouse ({home.x:.1f}, {home.y:.1f}) m the robot has no room to park: it meets {hit[1]}. "
+                "Move the warehouse or what is there."
+            )
 
     def _parking(self, home: SE2) -> list[Option]:
         """The warehouse's own pose, at a price any other direction."""

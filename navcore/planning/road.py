@@ -24,6 +24,8 @@ Floats = NDArray[np.float64]
 _DEFAULT_SPEED = 0.8
 # A waypoint that is too close to a corner's radius may still be rounded down to this, m.
 _TIGHTEST = 0.6
+# So many turns that are too sharp are named one by one.
+_SHARP_NAMED = 8
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,10 +64,10 @@ def add_road(
         return add_road(draft, departures, rerouted, goals, params)
     _add_departure(draft, departures[int(joined.start.key)])
     speeds = [w.speed for w in road.waypoints]
-    _add_connection(draft, joined, f"on the way {road.name}, before waypoint {road.first_number}", speeds[0], params)
+    _add_connection(draft, joined, f"on the way {road.name}, before waypoint {road.first_number},", speeds[0], params)
     _add_line(draft, line, joined.goal.key, left.start.key, road)
     last = road.first_number + len(road.waypoints) - 1
-    _add_connection(draft, left, f"on the way {road.name}, after waypoint {last}", speeds[-1], params)
+    _add_connection(draft, left, f"on the way {road.name}, after waypoint {last},", speeds[-1], params)
     return left.goal
 
 
@@ -106,11 +108,16 @@ def _line_through(draft: Draft, road: Road, start: SE2, goal: SE2, params: Plann
     if float(np.ptp(points, axis=0).max()) < 0.5:
         points = _through_one(points[0], start, goal)
     line, sharp = rounded(points, (*params.radii, _TIGHTEST), params.step)
-    for index in sharp:
+    for index in sharp[:_SHARP_NAMED]:
         x, y = points[index]
         draft.problems.append(
             f"The turn at waypoint {road.first_number + index} ({x:.1f}, {y:.1f}) m on the way {road.name} is too "
             f"sharp for the robot. Move it or its neighbours further apart."
+        )
+    if len(sharp) > _SHARP_NAMED:
+        draft.problems.append(
+            f"{len(sharp) - _SHARP_NAMED} more turns on the way {road.name} are too sharp for the robot. Its "
+            "waypoints stand too close together: leave most of them out."
         )
     return line
 

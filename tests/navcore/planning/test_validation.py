@@ -94,3 +94,16 @@ def test_an_empty_mission_and_a_site_without_warehouse_are_refused() -> None:
     empty = Mission(id="m", name="m", outbound=(), visits=(), inbound=())
     found = problems(replace(farm(), warehouse=None), empty)
     assert len(found) == 2
+
+
+def test_a_warehouse_in_a_keep_out_zone_is_named_first() -> None:
+    found = problems(farm(zones=(zone(ZoneKind.KEEP_OUT, -30, -18, -24, -12),)))
+    assert found[0].startswith("At the warehouse (-27.0, -15.0) m the robot has no room to park: it meets a keep-out")
+    assert len(found) == len({reason.replace(",", "") for reason in found})
+
+
+def test_very_many_sharp_turns_are_named_in_one_sentence() -> None:
+    zigzag = tuple(Waypoint(x=-20 + 0.1 * n, y=-8 + 0.4 * (n % 2)) for n in range(120))
+    found = problems(farm(), Mission(id="m", name="m", outbound=zigzag, visits=(), inbound=()))
+    assert len(found) < 12
+    assert any("more turns on the way" in reason and "leave most of them out" in reason for reason in found)
