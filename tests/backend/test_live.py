@@ -163,6 +163,13 @@ def test_a_foreign_page_gets_no_feed(live: TestClient, origin: str) -> None:
             pass
 
 
+def test_a_feed_is_not_given_under_a_foreign_name(live: TestClient) -> None:
+    headers = {"Origin": "http://evil.example", "Host": "evil.example"}
+    for path in ("/api/live", "/scene"):
+        with pytest.raises(WebSocketDisconnect), live.websocket_connect(f"{SOCKET}{path}", headers=headers):
+            pass
+
+
 def test_nobody_gets_a_feed_without_a_login(live: TestClient) -> None:
     live.cookies.clear()
     with pytest.raises(WebSocketDisconnect), live.websocket_connect(f"{SOCKET}/api/live", headers={"Origin": ORIGIN}):

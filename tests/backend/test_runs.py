@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import time
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -149,6 +150,19 @@ def test_a_part_of_a_log_is_given_and_thousands_of_parts_are_no_bomb(
     bomb = client.get(address, headers={"Range": "bytes=" + ",".join(["0-1"] * 5000)})
     assert bomb.status_code in (200, 206, 400, 416)
     assert len(bomb.content) < 10 * driven["log_bytes"] + 1_000_000
+
+
+def test_a_log_that_leads_out_of_its_folder_is_not_given(
+    client: TestClient, driven: dict[str, Any], station: Station, tmp_path: Path
+) -> None:
+    secret = tmp_path / "secret"
+    secret.write_text("not for browsers")
+    log = station.runs.expected_log(driven["id"])
+    log.unlink()
+    log.symlink_to(secret)
+    for kind in ("download", "download?format=csv", "track", "camera?t_s=1"):
+        answer = client.get(f"/api/runs/{driven['id']}/{kind}")
+        assert (answer.status_code, "not for browsers" in answer.text) == (404, False)
 
 
 def test_a_stopped_run_keeps_why_it_was_stopped(
