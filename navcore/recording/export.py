@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+import re
 from collections.abc import Iterator
 from datetime import UTC, datetime
 from pathlib import Path
@@ -24,6 +25,7 @@ COLUMNS = (
     "lateral_error", "heading_error", "speed_limit", "speed_reason", "gnss_quality", "gnss_age_s", "row_age_s",
     "battery_v", "events",
 )  # fmt: skip
+NOT_IN_XML = re.compile(r"[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 GPX_HEAD = '<?xml version="1.0" encoding="UTF-8"?>\n<gpx version="1.1" creator="Rowpilot" xmlns="http://www.topografix.com/GPX/1/1">'
 
 
@@ -50,16 +52,15 @@ class RunExport:
 
     def geojson(self) -> str:
         """Driven line, planned segments and mode switches, longitude and latitude (RFC 7946)."""
-        features = [self._driven(), *self._planned(), *self._switched()]
+        features = [*self._driven(), *self._planned(), *self._switched()]
         return msgspec.json.encode({"type": "FeatureCollection", "features": features}).decode()
 
     def gpx(self) -> str:
-        """The driven track with times."""
+        """The driven track with times; without heights, which nobody measures."""
         points = "\n".join(
-            f'<trkpt lat="{lat:.9f}" lon="{lon:.9f}"><ele>{height:.3f}</ele><time>{time}</time></trkpt>'
-            for lat, lon, height, time in self._track()
+            f'<trkpt lat="{lat:.9f}" lon="{lon:.9f}"><time>{time}</time></trkpt>' for lat, lon, time in self._track()
         )
-        name = escape(self._plan.name)
+        name = escape(NOT_IN_XML.sub(" ", self._plan.name))
         return f"{GPX_HEAD}\n<trk><name>{name}</name><trkseg>\n{points}\n</trkseg></trk>\n</gpx>\n"
 
     def _row(self, status: NavStatus) -> list[Any]:
@@ -77,15 +78,17 @@ class RunExport:
         speeds = (f"{status.v:.4f}", f"{status.omega:.5f}", status.state.value, status.mode.value, status.row_id)
         return [f"{t_s:.3f}", self._time(status.stamp_ns), *place, *speeds, *rest]
 
-    def _track(self) -> Iterator[tuple[float, float, float, str]]:
+    def _track(self) -> Iterator[tuple[float, float, str]]:
         for status in self._statuses:
             if status.pose is not None:
-                lat_deg, lon_deg, height = self._frame.to_geodetic(status.pose.x, status.pose.y, 0.0)
-                yield lat_deg, lon_deg, height, self._time(status.stamp_ns)
+                lon_deg, lat_deg = self._lon_lat(status.pose.x, status.pose.y)
+                yield lat_deg, lon_deg, self._time(status.stamp_ns)
 
-    def _driven(self) -> dict[str, Any]:
-        line = [[lon, lat] for lat, lon, _, _ in self._track()]
-        return _feature("LineString", line, {"kind": "driven", "name": self._plan.name})
+    def _driven(self) -> Iterator[dict[str, Any]]:
+        """A line has two positions at least; a run that ended before has none."""
+        line = [[lon, lat] for lat, lon, _ in self._track()]
+        if len(line) > 1:
+            yield _feature("LineString", line, {"kind": "driven", "name": self._plan.name})
 
     def _planned(self) -> Iterator[dict[str, Any]]:
         for segment in self._plan.segments:

@@ -63,10 +63,11 @@ class Drive:
 
     start_ns: int = 5_000_000_000
     statuses: int = 100
+    name: str = "North & <south>"
 
     def received(self) -> list[tuple[int, Received]]:
         segment = PathSegment(kind=SegmentKind.ROAD, points=((0.0, 0.0), (10.0, 0.0)), speeds=(0.8, 0.8))
-        plan = MissionPlan(mission_id="m", name="North & <south>", datum=DATUM, segments=(segment,))
+        plan = MissionPlan(mission_id="m", name=self.name, datum=DATUM, segments=(segment,))
         messages = [(self.start_ns, Received(NAV_PLAN.name, encode(plan), b""))]
         for number in range(self.statuses):
             now_ns = self.start_ns + number * 50_000_000

@@ -6,7 +6,6 @@ import csv
 import io
 import json
 from pathlib import Path
-from typing import TYPE_CHECKING
 from xml.etree import ElementTree
 
 import pytest
@@ -15,9 +14,7 @@ from navcore.errors import LogError
 from navcore.recording.export import COLUMNS, RunExport
 from navcore.recording.recorder import Recorder
 from navcore.recording.requests import RecorderRequest, RecorderRequestKind
-
-if TYPE_CHECKING:
-    from tests.navcore.recording.conftest import Drive
+from tests.navcore.recording.conftest import Drive
 
 WALL_NS = 1_790_000_000_000_000_000
 METRES_PER_DEGREE_EAST = 82_850.0  # at 42 degrees north, to 0.1 %
@@ -67,6 +64,18 @@ def test_the_track_is_gpx_and_its_name_is_safe(export: RunExport, drive: Drive) 
     assert len(points) == drive.statuses
     assert root.findtext(".//g:name", namespaces=GPX) == "North & <south>"
     assert points[0].findtext("g:time", namespaces=GPX) == "2026-09-21T14:13:20.000Z"
+
+
+def test_a_name_with_characters_that_xml_does_not_know_is_still_gpx(tmp_path: Path) -> None:
+    drive = Drive(name="row \x07 7 \U0001f347")
+    root = ElementTree.fromstring(RunExport(log_of(drive, tmp_path / "run.mcap")).gpx())
+    assert root.findtext(".//g:name", namespaces=GPX) == "row   7 \U0001f347"
+    assert root.find(".//g:ele", GPX) is None
+
+
+def test_a_run_that_ended_at_once_has_no_driven_line(tmp_path: Path) -> None:
+    features = json.loads(RunExport(log_of(Drive(statuses=1), tmp_path / "run.mcap")).geojson())["features"]
+    assert "driven" not in [feature["properties"]["kind"] for feature in features]
 
 
 def test_a_log_without_a_drive_is_refused_with_a_sentence(drive: Drive, tmp_path: Path) -> None:
