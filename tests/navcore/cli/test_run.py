@@ -81,3 +81,15 @@ def test_settings_of_the_simulation_that_are_none_are_refused(folder: Path) -> N
     result = CliRunner().invoke(app, ["run", "--data", str(folder), "--simulation", '{"season": "monsoon"}'])
     assert result.exit_code == 1
     assert "simulation" in result.output
+
+
+@pytest.mark.parametrize("content", [None, "<gpx>", '[front_camera]\nsauce = "/dev/video0"\n'])
+def test_settings_of_the_robot_are_refused_before_anything_begins(folder: Path, content: str | None) -> None:
+    settings = folder / "robot.toml"
+    if content is not None:
+        settings.write_text(content)
+    result = CliRunner().invoke(app, ["run", "--data", str(folder / "data"), "--config", str(settings)])
+    assert result.exit_code == 1
+    assert result.output.startswith("rowpilot: ")
+    assert "robot.toml" in result.output or "sauce" in result.output
+    assert not (folder / "data").exists()
