@@ -9,6 +9,7 @@ from urllib.parse import urlsplit
 
 import uvicorn
 
+from backend.connections import Connection
 from backend.main import create_app
 from backend.settings import Settings
 from backend.station import Station
@@ -85,6 +86,7 @@ def config(app: object) -> uvicorn.Config:
         proxy_headers=False,
         server_header=False,
         date_header=False,
+        http=Connection,
         ws="websockets-sansio",
         ws_max_size=LONGEST_SOCKET_MESSAGE,
         ws_per_message_deflate=False,
@@ -92,5 +94,4 @@ def config(app: object) -> uvicorn.Config:
         ws_ping_timeout=5.0,
         timeout_keep_alive=KEEP_ALIVE_S,
         timeout_graceful_shutdown=3,
-        limit_concurrency=512,
     )
