@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from navcore.messages import PathSegment, SegmentKind
 from navcore.planning.driven_row import DrivenRow
-from navcore.planning.free_space import FreeSpace
+from navcore.planning.free_space import PLANTS, FreeSpace
 from navcore.planning.params import PlanningParams
 from navcore.planning.speeds import planned_speeds
 from navcore.vehicle import VehicleParams
@@ -70,10 +70,14 @@ class Draft:
 
     def meets(self, where: str, obstacle: str, place: tuple[float, float]) -> None:
         """Add the sentence that the body, margin included, meets an obstacle at a place."""
-        margin = self._params.zone_margin if "zone" in obstacle else self._params.plant_margin
+        plants = obstacle == PLANTS
+        margin = (
+            self._params.plant_margin if plants or obstacle.endswith("of the headland") else self._params.zone_margin
+        )
+        advice = "Move the path, or correct the rows." if plants else "Move the path or the zone."
         self.problems.append(
             f"{where[0].upper()}{where[1:]} the robot comes nearer than {margin:.1f} m to {obstacle} "
-            f"at ({place[0]:.1f}, {place[1]:.1f}) m. Move the path or the zone."
+            f"at ({place[0]:.1f}, {place[1]:.1f}) m. {advice}"
         )
 
     def finished(self) -> tuple[PathSegment, ...]:

@@ -15,6 +15,7 @@ from navcore.vehicle import VehicleParams
 
 Floats = NDArray[np.float64]
 
+KEEP_OUT, PLANTS = "a keep-out zone", "a line of plants"
 # A headland belongs to a row's end if it comes this near to it, m.
 _HEADLAND_NEAR = 3.0
 
@@ -26,6 +27,7 @@ class FreeSpace:
         self._vehicle, self._params = vehicle, params
         self.keep_in = _union(site, ZoneKind.KEEP_IN)
         self.keep_out = _union(site, ZoneKind.KEEP_OUT)
+        self._keep_out_zones = [(z, shapely.Polygon(z.polygon)) for z in site.zones if z.kind is ZoneKind.KEEP_OUT]
         self.headland = _union(site, ZoneKind.HEADLAND)
         self.plants = _plant_lines(site.rows, params.plant_radius)
         self.alleys = shapely.union_all([_alley(row, 0.0) for row in site.rows])
@@ -41,15 +43,24 @@ class FreeSpace:
         `on_headland` also asks that it stay on drawn headlands and in rows.
         """
         zone_bodies = self._bodies(poses, self._params.zone_margin)
-        checks = [(shapely.intersects(self.keep_out, zone_bodies), "a keep-out zone")]
+        checks = [(shapely.intersects(self.keep_out, zone_bodies), KEEP_OUT)]
         if not self.keep_in.is_empty:
             checks.append((~shapely.covers(self.keep_in, zone_bodies), "the edge of the keep-in zone"))
         plant_bodies = self._bodies(poses, self._params.plant_margin)
-        checks.append((shapely.intersects(self.plants, plant_bodies), "a line of plants"))
+        checks.append((shapely.intersects(self.plants, plant_bodies), PLANTS))
         if on_headland:
             checks.append((~shapely.covers(self._turning, plant_bodies), "the edge of the headland"))
         hits = [(int(np.argmax(bad)), what) for bad, what in checks if bad.any()]
-        return min(hits) if hits else None
+        if not hits:
+            return None
+        index, what = min(hits)
+        return index, self._named(zone_bodies[index]) if what == KEEP_OUT else what
+
+    def _named(self, body: shapely.Polygon) -> str:
+        """The keep-out zone that a body touches, by its name if it has one."""
+        touched = (zone.name for zone, area in self._keep_out_zones if area.intersects(body))
+        name = next(touched, "")
+        return f"the keep-out zone {name}" if name else KEEP_OUT
 
     def blocked_turn(self, poses: Floats, end: tuple[float, float]) -> tuple[int, str] | None:
         """The same for a turn at that row end: where a headland was drawn, the turn must stay on it."""

@@ -27,7 +27,7 @@ def test_a_good_mission_has_none() -> None:
 def test_a_thin_keep_out_zone_between_two_waypoints_is_found() -> None:
     wall = zone(ZoneKind.KEEP_OUT, -12.0, -8.0, -11.98, 0.0, name="wall")
     found = problems(farm(zones=(wall,)))
-    assert any("keep-out zone" in reason and "waypoint" in reason for reason in found)
+    assert any("the keep-out zone wall at" in reason and "waypoint" in reason for reason in found)
 
 
 def test_the_body_counts_not_the_line() -> None:
@@ -107,3 +107,11 @@ def test_very_many_sharp_turns_are_named_in_one_sentence() -> None:
     found = problems(farm(), Mission(id="m", name="m", outbound=zigzag, visits=(), inbound=()))
     assert len(found) < 12
     assert any("more turns on the way" in reason and "leave most of them out" in reason for reason in found)
+
+
+def test_rows_that_cross_are_to_be_corrected() -> None:
+    site = farm()
+    across = replace(site.rows[0], id="X", start=(-5.0, 20.0), end=(20.0, 40.0))
+    (found,) = problems(replace(site, rows=(*site.rows, across)))
+    assert found.startswith("In row R2 the robot comes nearer than 0.2 m to a line of plants")
+    assert found.endswith("Move the path, or correct the rows.")
