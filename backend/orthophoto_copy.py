@@ -40,11 +40,15 @@ def copy(picture: DatasetReader, bands: tuple[int, ...], target: Path, tell: Tel
 
 
 def north_up(picture: DatasetReader) -> DatasetReader | WarpedVRT:
-    """The picture itself, or a view of it that is turned upright; either is closed by its context."""
+    """The picture itself, or a view of it that is turned upright; either is closed by its context.
+
+    Between two places in a palette lies a third colour, so those are not mixed.
+    """
     t = picture.transform
     if t.b == 0.0 and t.d == 0.0 and t.e < 0.0 < t.a:
         return picture
-    return WarpedVRT(picture, crs=picture.crs, add_alpha=not has_alpha(picture), resampling=Resampling.bilinear)
+    between = Resampling.nearest if ColorInterp.palette in picture.colorinterp else Resampling.bilinear
+    return WarpedVRT(picture, crs=picture.crs, add_alpha=not has_alpha(picture), resampling=between)
 
 
 def has_alpha(picture: DatasetReader | WarpedVRT) -> bool:

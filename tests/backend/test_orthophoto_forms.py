@@ -67,6 +67,19 @@ def test_every_sane_form_of_picture_becomes_rgb(tmp_path: Path, kind: str) -> No
         assert int(red[200, 350]) < 60 or kind == "nodata"
 
 
+def test_a_palette_that_is_turned_upright_keeps_its_colours(tmp_path: Path) -> None:
+    """Red is 1, green is 9, and blue all that lies between."""
+    checks = (np.indices((300, 400)).sum(axis=0) // 20 % 2 * 8 + 1)[None].astype(np.uint8)
+    source = write(tmp_path / "in.tif", checks, transform=NORTH_UP @ Affine.rotation(30.0))
+    with rasterio.open(source, "r+") as out:
+        blue = {value: (0, 0, 255, 255) for value in range(256)}
+        out.write_colormap(1, blue | {1: (255, 0, 0, 255), 9: (0, 255, 0, 255)})
+    import_picture(source, tmp_path / "out.tif", CheckParams(), silent)
+    with rasterio.open(tmp_path / "out.tif") as made:
+        seen = made.read(3)[made.dataset_mask() > 0]
+    assert (seen > 200).mean() < 0.001
+
+
 def marked(column: int, row: int) -> np.ndarray[Any, Any]:
     """Black, with a white square of 9 pixels around one of them."""
     picture = np.zeros((3, 300, 400), np.uint8)
