@@ -72,7 +72,7 @@ def test_a_palette_that_is_turned_upright_keeps_its_colours(tmp_path: Path) -> N
     checks = (np.indices((300, 400)).sum(axis=0) // 20 % 2 * 8 + 1)[None].astype(np.uint8)
     source = write(tmp_path / "in.tif", checks, transform=NORTH_UP @ Affine.rotation(30.0))
     with rasterio.open(source, "r+") as out:
-        blue = {value: (0, 0, 255, 255) for value in range(256)}
+        blue = dict.fromkeys(range(256), (0, 0, 255, 255))
         out.write_colormap(1, blue | {1: (255, 0, 0, 255), 9: (0, 255, 0, 255)})
     import_picture(source, tmp_path / "out.tif", CheckParams(), silent)
     with rasterio.open(tmp_path / "out.tif") as made:
