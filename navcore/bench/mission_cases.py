@@ -13,8 +13,9 @@ from navcore.sim.orchard import Season
 class CaseKind(StrEnum):
     """What is asked of the robot.
 
-    MISSION: warehouse, row, warehouse, all sensors. GNSS_ONLY: the same without a camera. ROW_CHANGE: into the next
-    row over the headland, RTK corrections lost from the first row until the second. TRACK: 100 m of road on GNSS.
+    MISSION: warehouse, row, warehouse, all sensors. ROW_CHANGE: a mission into the next row over the headland, RTK
+    corrections lost from the first row until the second. GNSS_ONLY: the same as either without a camera. TRACK:
+    100 m of road on GNSS.
     """
 
     MISSION = "mission"
@@ -93,7 +94,7 @@ class CaseParams:
 
     source: Farms = Farms.SCORING
     eye: EyeKind = EyeKind.PIXELS
-    farms: int = 12
+    farms: int = 9
     row_changes: int = 24
     tracks: int = 5
     quick: bool = False
@@ -101,10 +102,9 @@ class CaseParams:
 
 def mission_cases(params: CaseParams) -> tuple[MissionCase, ...]:
     """All cases, each mission followed by its ablation on GNSS alone."""
-    missions = _missions(params)
+    missions = (*_missions(params), *_row_changes(params))
     alone = tuple(_like(case, CaseKind.GNSS_ONLY) for case in missions)
-    paired = tuple(case for pair in zip(missions, alone, strict=True) for case in pair)
-    return (*_tracks(params), *paired, *_row_changes(params))
+    return (*_tracks(params), *(case for pair in zip(missions, alone, strict=True) for case in pair))
 
 
 def _missions(params: CaseParams) -> tuple[MissionCase, ...]:

@@ -45,7 +45,7 @@ class Figure:
 def mission_figures(results: Iterable[MissionResult]) -> tuple[Figure, ...]:
     """All figures of the results at hand."""
     known = sorted(results, key=lambda r: r.case.id)
-    missions = [r for r in known if r.case.kind is CaseKind.MISSION]
+    missions = [r for r in known if r.case.kind in (CaseKind.MISSION, CaseKind.ROW_CHANGE)]
     alone = [r for r in known if r.case.kind is CaseKind.GNSS_ONLY]
     changes = [r for r in known if r.case.kind is CaseKind.ROW_CHANGE]
     tracks = [r for r in known if r.case.kind is CaseKind.TRACK]
@@ -54,8 +54,8 @@ def mission_figures(results: Iterable[MissionResult]) -> tuple[Figure, ...]:
         _share("missions finished without a human", missions, target=1.0, baseline=ablation),
         _share("the same missions on GNSS alone", alone),
         *_track_figures(tracks),
-        *_row_figures([*missions, *changes]),
-        *_switch_figures([*missions, *changes]),
+        *_row_figures(missions),
+        *_switch_figures(missions),
         _share("row changes over the headland without an RTK fix", changes, target=0.95),
     )
 

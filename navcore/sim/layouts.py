@@ -25,12 +25,12 @@ class LayoutParams:
     """
 
     rows: tuple[int, int] = (4, 6)
-    row_length: tuple[float, float] = (60.0, 75.0)
+    row_length: tuple[float, float] = (60.0, 65.0)
     row_width: tuple[float, float] = (2.5, 4.0)
     post_spacing: tuple[float, float] = (4.0, 7.0)
     plant_spacing: tuple[float, float] = (1.0, 2.0)
     headland_depth: tuple[float, float] = (9.0, 13.0)
-    road_reach: tuple[float, float] = (18.0, 30.0)
+    road_reach: tuple[float, float] = (12.0, 20.0)
     road_bend: tuple[float, float] = (0.08, 0.25)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
@@ -67,11 +68,14 @@ def as_float(fix: GnssFix, scatter: np.random.Generator, turn_rad: float = 0.0) 
     return replace(moved(fix, east, north), quality=FixQuality.RTK_FLOAT, heading_rad=heading)
 
 
+def float_after_8_s(scatter: np.random.Generator, fix: GnssFix, t: float) -> GnssFix:
+    return as_float(fix, scatter) if t >= 8.0 else fix
+
+
 def test_scattering_float_fixes_slow_the_robot_but_never_stop_it() -> None:
     for seed in range(3):
         scatter = np.random.default_rng(seed)
-        found = caps(seed, 30.0, change=lambda fix, t, s=scatter: as_float(fix, s) if t >= 8.0 else fix)
-        assert all(cap.speed != 0.0 for _, cap in found[60:])
+        assert all(cap.speed != 0.0 for _, cap in caps(seed, 30.0, change=partial(float_after_8_s, scatter))[60:])
 
 
 def test_wrong_heading_is_stopped_within_four_metres_on_float_fixes_too() -> None:
