@@ -15,6 +15,7 @@ import sys
 from dataclasses import asdict
 from pathlib import Path
 
+from rasterio._err import CPLE_BaseError
 from rasterio.errors import RasterioError
 
 from backend.gdal_setup import gdal, open_geotiff
@@ -23,6 +24,7 @@ from backend.orthophoto_copy import Tell, build_overviews, copy
 from navcore.errors import OrthophotoError
 
 CLONE_NEWUSER, CLONE_NEWNET = 0x10000000, 0x40000000  # linux/sched.h
+DAMAGED = (RasterioError, CPLE_BaseError, UnicodeDecodeError)  # what GDAL raises of a file that contradicts itself
 NOT_READABLE = "This file cannot be read as a GeoTIFF. Export the orthophoto again as a GeoTIFF, not as a photo."
 BROKEN = "This GeoTIFF is damaged: its pixels cannot be read to the end. Copy or export it again."
 
@@ -85,16 +87,16 @@ def import_picture(source: Path, target: Path, params: CheckParams, tell: Tell) 
         tell(0.0, "Checking the file")
         try:
             picture = open_geotiff(source)
-        except RasterioError as error:
+        except DAMAGED as error:
             raise OrthophotoError(NOT_READABLE) from error
         with picture:
-            check_size(picture, source.stat().st_size, params)
-            bands = check_bands(picture)
-            facts = locate(picture, params)
             try:
+                check_size(picture, source.stat().st_size, params)
+                bands = check_bands(picture)
+                facts = locate(picture, params)
                 copy(picture, bands, target, tell)
                 build_overviews(target, tell)
-            except RasterioError as error:
+            except DAMAGED as error:
                 raise OrthophotoError(BROKEN) from error
     return facts
 
