@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from navcore.maps.mission import Mission
 from navcore.maps.site_map import SiteMap
-from tests.backend.starting import as_json
+from tests.backend.starting import as_json, paths_to_numbers, with_text_at
 
 
 @pytest.fixture
@@ -107,23 +107,6 @@ def test_an_impossible_mission_tells_why(client: TestClient, stored: dict[str, A
     body = {"mission": as_json(mission) | {"visits": [{"row_id": "nowhere"}]}}
     preview = client.post(f"/api/sites/{stored['id']}/preview", json=body).json()
     assert preview["problems"]
-
-
-def paths_to_numbers(value: Any, path: tuple[Any, ...] = ()) -> list[tuple[Any, ...]]:
-    if isinstance(value, dict):
-        return [found for key, item in value.items() for found in paths_to_numbers(item, (*path, key))]
-    if isinstance(value, list):
-        return [found for i, item in enumerate(value) for found in paths_to_numbers(item, (*path, i))]
-    return [path] if isinstance(value, float) else []
-
-
-def with_text_at(document: Any, path: tuple[Any, ...], text: str) -> str:
-    copy = json.loads(json.dumps(document))
-    place = copy
-    for key in path[:-1]:
-        place = place[key]
-    place[path[-1]] = "HERE"
-    return json.dumps(copy).replace('"HERE"', text)
 
 
 @pytest.mark.parametrize("bad", ["NaN", "Infinity", "-Infinity", "1e999", '"nan"'])
