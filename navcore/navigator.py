@@ -33,7 +33,8 @@ from navcore.mission.driver import Driver, DriverParams, Driving
 from navcore.mission.events import Event, EventParams, active_events, effects_of
 from navcore.mission.evidence import NS, GnssEvidence, GnssEvidenceParams
 from navcore.mission.guard_orders import GuardOrders
-from navcore.mission.pilot import Pilot, PilotParams, Position
+from navcore.mission.pilot import Pilot, PilotParams
+from navcore.mission.position import Position
 from navcore.mission.senses import Senses
 from navcore.mission.situation import Situation, event_facts
 from navcore.mission.state_machine import UNDER_WAY, Circumstances, Effect, next_state, refusal

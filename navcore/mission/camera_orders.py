@@ -6,7 +6,9 @@ import math
 
 from navcore.geometry.angles import wrap
 from navcore.messages import CameraRequest
-from navcore.mission.pilot import Pilot, Position, row_length
+from navcore.mission.pilot import Pilot
+from navcore.mission.position import Position
+from navcore.mission.route import row_length
 
 
 def camera_request(pilot: Pilot, at: Position) -> CameraRequest | None:

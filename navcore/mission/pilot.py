@@ -19,7 +19,8 @@ from navcore.messages import (
 )
 from navcore.mission.evidence import RowEvidence, RowEvidenceParams
 from navcore.mission.mode_selector import ModeFacts, ModeSelectorParams, first_mode, select_mode
-from navcore.mission.route import Leg, Place, Route
+from navcore.mission.position import Position
+from navcore.mission.route import Leg, Place, Route, row_length
 
 ON_CAMERA = frozenset({NavMode.ROW_ENTRY, NavMode.ROW})
 ALONG_ROW = frozenset({NavMode.ROW, NavMode.ROW_END})
@@ -54,40 +55,6 @@ class PilotParams:
     anchor: PathAnchorParams = field(default_factory=PathAnchorParams)
     row: RowEvidenceParams = field(default_factory=RowEvidenceParams)
     mode: ModeSelectorParams = field(default_factory=ModeSelectorParams)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Position:
-    """What the pilot is told of the robot in each tick.
-
-    Attributes:
-        T_odom_base: smooth dead-reckoned pose.
-        T_map_base: the pose filter's, None without one.
-        gnss_std, gnss_streak: see `ModeFacts`.
-        standing: the robot does not move.
-        lean: (roll, pitch) of `base_link` against the ground, rad.
-    """
-
-    now_ns: int
-    T_odom_base: SE2
-    T_map_base: SE2 | None
-    gnss_std: float | None
-    gnss_streak: int
-    standing: bool
-    lean: tuple[float, float] = (0.0, 0.0)
-
-    def surely_at(self, std: float) -> SE2 | None:
-        """The pose if it is known to `std` m."""
-        return self.T_map_base if self.gnss_std is not None and self.gnss_std <= std else None
-
-    def gnss_good(self, params: ModeSelectorParams) -> bool:
-        """Good enough to say which row is which."""
-        return self.gnss_std is not None and self.gnss_std <= params.gnss_std and self.gnss_streak > 0
-
-
-def row_length(segment: PathSegment) -> float:
-    """Of the row that a segment belongs to, as drawn, m."""
-    return math.dist(segment.row_start or (0.0, 0.0), segment.row_end or (0.0, 0.0))
 
 
 class Pilot:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from bisect import bisect_right
 from dataclasses import dataclass
 from itertools import accumulate, groupby
@@ -24,6 +25,11 @@ class Place:
 
     leg: int
     s: float
+
+
+def row_length(segment: PathSegment) -> float:
+    """Of the row that a segment belongs to, as drawn, m."""
+    return math.dist(segment.row_start or (0.0, 0.0), segment.row_end or (0.0, 0.0))
 
 
 class Leg:
