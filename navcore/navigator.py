@@ -30,7 +30,8 @@ from navcore.messages import (
 )
 from navcore.mission.camera_orders import camera_request
 from navcore.mission.driver import Driver, DriverParams, Driving
-from navcore.mission.events import Event, EventParams, active_events, effects_of
+from navcore.mission.event_facts import EventParams
+from navcore.mission.events import Event, active_events, effects_of
 from navcore.mission.evidence import NS, GnssEvidence, GnssEvidenceParams
 from navcore.mission.guard_orders import GuardOrders
 from navcore.mission.pilot import Pilot, PilotParams

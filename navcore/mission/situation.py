@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from navcore.messages import LinkLossPolicy, NavMode, RunState, SegmentKind
 from navcore.mission.driver import Driving
-from navcore.mission.events import EventFacts
+from navcore.mission.event_facts import EventFacts
 from navcore.mission.evidence import NS
 from navcore.mission.pilot import CARRIED, Pilot
 from navcore.mission.senses import Senses

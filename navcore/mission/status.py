@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from navcore.geometry.angles import wrap
 from navcore.messages import ActiveEvent, NavStatus
-from navcore.mission.events import Event, EventFacts
+from navcore.mission.event_facts import EventFacts
+from navcore.mission.events import Event
 from navcore.mission.situation import Situation
 from navcore.mission.state_machine import Effect
 

@@ -10,7 +10,8 @@ import pytest
 
 from navcore.chassis.protocol import ChassisState, ControlMode, GuardState, VehicleState
 from navcore.messages import LinkLossPolicy, NavMode, RunState
-from navcore.mission.events import EVENTS, EventFacts, EventParams, active_events, effects_of
+from navcore.mission.event_facts import EventFacts, EventParams
+from navcore.mission.events import EVENTS, active_events, effects_of
 from navcore.mission.state_machine import Effect
 
 PARAMS = EventParams()
