@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+from typing import ClassVar
 
 from uvicorn.protocols.http.httptools_impl import HttpToolsProtocol
 
@@ -11,13 +12,13 @@ HEAD_S = 30.0  # from the first byte of a request, or from the connection's begi
 
 
 class Connection(HttpToolsProtocol):
-    """Refused when there are too many; closed when no request comes, or none comes to its end."""
+    """When there are too many, the one that has waited longest for a request gives way, and none waits for ever."""
 
-    _patience: asyncio.TimerHandle | None = None
+    _all_waiting: ClassVar[dict[Connection, asyncio.TimerHandle]] = {}  # in the order in which they began to wait
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
         """A browser or a stranger has come."""
-        if len(self.connections) >= MOST:
+        if len(self.connections) >= MOST and not self._make_room():
             self.transport = transport  # uvicorn closes it once more when it is gone
             transport.abort()
             return
@@ -39,11 +40,18 @@ class Connection(HttpToolsProtocol):
         self._stop_waiting()
         super().connection_lost(exc)
 
+    def _make_room(self) -> bool:
+        oldest = next(iter(self._all_waiting), None)
+        if oldest is None:
+            return False
+        oldest._stop_waiting()
+        oldest.transport.abort()
+        return True
+
     def _wait_for_head(self) -> None:
-        if self._patience is None:
-            self._patience = self.loop.call_later(HEAD_S, self.transport.close)
+        if self not in self._all_waiting:
+            self._all_waiting[self] = self.loop.call_later(HEAD_S, self.transport.close)
 
     def _stop_waiting(self) -> None:
-        if self._patience is not None:
-            self._patience.cancel()
-            self._patience = None
+        if (patience := self._all_waiting.pop(self, None)) is not None:
+            patience.cancel()

@@ -64,6 +64,12 @@ STATUS: dict[type[Exception], int] = {
 }
 INTERNAL = "The station made an error of its own. Nothing was changed; the log of the station has the details."
 
+FRAMEWORK = {
+    400: "The request cannot be read as JSON. Load the page again and repeat it.",
+    404: "There is nothing at this address.",
+    405: "This address does not take such a request. Load the page again.",
+}
+
 
 def status_of(error: Exception) -> int:
     """Status of the nearest class of the table, 500 for anything else."""
@@ -99,9 +105,10 @@ async def answer_invalid(request: Request, error: Exception) -> JSONResponse:
 
 
 async def answer_http(request: Request, error: Exception) -> JSONResponse:
-    """Errors of the framework: unknown path, wrong method."""
+    """Errors of the framework: unknown path, wrong method, a body that is no JSON."""
     assert isinstance(error, HTTPException)
-    return JSONResponse(body(str(error.detail)), error.status_code, headers=error.headers)
+    message = FRAMEWORK.get(error.status_code, str(error.detail))
+    return JSONResponse(body(message), error.status_code, headers=error.headers)
 
 
 async def answer_unforeseen(request: Request, error: Exception) -> JSONResponse:

@@ -7,6 +7,7 @@ address, behind the station's login (`backend.scene_proxy`).
 from __future__ import annotations
 
 import argparse
+import logging
 import os
 import signal
 import time
@@ -51,6 +52,7 @@ def main() -> None:
     for number in (signal.SIGTERM, signal.SIGINT):
         signal.signal(number, lambda caught, _: ended.append(caught))
     os.nice(5)
+    logging.getLogger("websockets").setLevel(logging.CRITICAL)  # the station looks in without a word: no failure
     endpoints = Endpoints(arguments.bus)
     supervisor = SupervisorClient(endpoints, arguments.data / "robot")
     farm = FarmWatch(supervisor, arguments.data / "robot")

@@ -46,11 +46,21 @@ def serve(settings: Settings) -> None:
 
 
 def listen(settings: Settings) -> socket.socket:
-    """The station's one socket; it listens before anything is printed, so that an early browser waits."""
+    """The station's one socket; it listens before anything is printed, so that an early browser waits.
+
+    Ends the process with a sentence where that address cannot be had.
+    """
     family = socket.AF_INET6 if ":" in settings.host else socket.AF_INET
     listener = socket.socket(family, socket.SOCK_STREAM)
     listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-    listener.bind((settings.host, settings.port))
+    try:
+        listener.bind((settings.host, settings.port))
+    except OSError as error:
+        listener.close()
+        raise SystemExit(
+            f"The station cannot listen on {settings.host}, port {settings.port}: {error.strerror}. "
+            "Stop what uses it, or choose another port with --port."
+        ) from error
     listener.listen()
     return listener
 

@@ -13,6 +13,7 @@ import uvicorn
 from starlette.responses import PlainTextResponse
 
 from backend import connections, server
+from backend.settings import Settings
 from tests.backend.played_robot import until
 
 MOST = 4
@@ -83,18 +84,16 @@ def test_a_browser_keeps_its_connection_while_strangers_come_and_go(port: int) -
     browser.close()
 
 
-def test_one_connection_too_many_is_closed_at_once_and_the_others_go_on(
-    port: int, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_whoever_asks_takes_the_place_of_who_has_waited_longest(port: int, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(connections, "HEAD_S", 10 * PATIENCE_S)
-    browser = HTTPConnection("127.0.0.1", port, timeout=PATIENCE_S)
-    assert ask(browser) == "here"
-    patient = [stranger(port, b"GET") for _ in range(MOST - 1)]
-    assert is_closed(stranger(port, b""))
-    assert ask(browser) == "here"
-    for held in patient:
-        held.close()
-    browser.close()
+    strangers = [stranger(port, b"GET") for _ in range(5 * MOST)]
+    browsers = [HTTPConnection("127.0.0.1", port, timeout=PATIENCE_S) for _ in range(MOST)]
+    assert [ask(browser) for browser in browsers] == ["here"] * MOST
+    assert all(is_closed(held) for held in strangers)
+    assert is_closed(stranger(port, b""))  # nobody waits any more: no room
+    assert [ask(browser) for browser in browsers] == ["here"] * MOST
+    for browser in browsers:
+        browser.close()
 
 
 def test_there_is_room_again_after_strangers_have_gone(port: int) -> None:
@@ -107,3 +106,12 @@ def test_there_is_room_again_after_strangers_have_gone(port: int) -> None:
 
 def test_a_connection_outlasts_the_pauses_between_a_page_s_questions() -> None:
     assert server.config(None).timeout_keep_alive > 2 * 30  # s, the longest pause of the pages
+
+
+def test_a_port_that_is_taken_is_told_in_a_sentence(settings: Settings) -> None:
+    with socket.socket() as other:
+        other.bind(("127.0.0.1", 0))
+        other.listen()
+        taken = settings.model_copy(update={"port": other.getsockname()[1]})
+        with pytest.raises(SystemExit, match="choose another port with --port"):
+            server.listen(taken)

@@ -35,16 +35,19 @@ def is_running(process: int) -> bool:
     return state != "Z"
 
 
-def test_the_view_ends_with_its_station_even_when_that_is_killed(settings: Settings) -> None:
+def test_the_view_ends_with_its_station_even_when_that_is_killed(settings: Settings, tmp_path: Path) -> None:
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         port: int = probe.getsockname()[1]
     text = settings.model_copy(update={"scene_port": port}).model_dump_json()
-    with subprocess.Popen([sys.executable, "-c", STATION, text]) as station:
+    log = tmp_path / "log"
+    with log.open("wb") as told, subprocess.Popen([sys.executable, "-c", STATION, text], stderr=told) as station:
         try:
             assert until(lambda: answers(port), 60.0)
+            assert all(answers(port) for _ in range(5))
             (view,) = children(station.pid)
         finally:
             station.send_signal(signal.SIGKILL)
     assert until(lambda: not is_running(view))
     assert not answers(port)
+    assert log.read_text() == ""  # looking whether it is there is no failure

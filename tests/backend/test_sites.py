@@ -140,7 +140,7 @@ def test_a_broken_body_is_refused_in_a_sentence(client: TestClient, body: bytes)
     for address in ADDRESSES[:2]:
         answer = client.post(address, content=body, headers={"Content-Type": "application/json"})
         assert answer.status_code in (400, 422)
-        assert answer.json()["message"]
+        assert answer.json()["message"].endswith(".")
 
 
 def test_half_a_character_is_refused_wherever_it_stands(client: TestClient, stored: dict[str, Any]) -> None:
