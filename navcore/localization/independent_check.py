@@ -89,6 +89,7 @@ class Anchor:
 
 
 NO_CAP = SpeedCap(None, "")
+_QUALITY_WORDS = {FixQuality.RTK_FLOAT: "RTK float only", FixQuality.DIFFERENTIAL: "differential only"}
 GOOD = (FixQuality.RTK_FIXED, FixQuality.RTK_FLOAT)
 
 
@@ -176,7 +177,7 @@ class IndependentCheck:
         if age > p.slow_age_s:
             return SpeedCap(p.slow_speed, f"GNSS is {age:.1f} s old")
         if fix.quality is not FixQuality.RTK_FIXED:
-            return SpeedCap(p.slow_speed, f"GNSS is {fix.quality.name.lower().replace('_', ' ')}")
+            return SpeedCap(p.slow_speed, f"GNSS is {_QUALITY_WORDS.get(fix.quality, 'without corrections')}")
         return NO_CAP
 
     def _compare_place(self, here: Anchor, estimate: PoseEstimate) -> None:

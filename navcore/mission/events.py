@@ -114,6 +114,11 @@ EVENTS: tuple[Event, ...] = (
         lambda f: f"The computer was busy for {f.tick_s * 1e3:.0f} ms. Close other programs, then resume.",
     ),
     _event(
+        "tick_slow", "WARN",
+        lambda f, p: f.state in MOVING and p.tick_slow_s < f.tick_s <= p.tick_stop_s,
+        lambda f: f"The computer was busy for {f.tick_s * 1e3:.0f} ms. Close other programs if this comes again.",
+    ),
+    _event(
         "no_position", "NO_ENTRY",
         lambda f, _: f.pose_std is None,
         "Position and heading are not known yet. Wait for the GNSS fix; the robot needs open sky.",
@@ -137,12 +142,12 @@ EVENTS: tuple[Event, ...] = (
     _event(
         "pose_in_doubt", "STOP",
         lambda f, _: f.state in MOVING and f.pose_cap is not None and not f.pose_cap > 0.0,
-        lambda f: f"The position is in doubt: {f.pose_cap_reason} Look at the robot and the antenna, then resume.",
+        lambda f: f"The position is in doubt: {f.pose_cap_reason}. Look at the robot and the antenna, then resume.",
     ),
     _event(
         "pose_weak", "SLOW",
         lambda f, _: f.state in UNDER_WAY and f.pose_cap is not None and f.pose_cap > 0.0,
-        lambda f: f"The robot drives slowly: {f.pose_cap_reason}",
+        lambda f: f"The robot drives slowly: {f.pose_cap_reason}.",
     ),
     _event(
         "waiting_for_gnss", "HOLD",

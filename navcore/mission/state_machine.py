@@ -11,6 +11,7 @@ from navcore.messages import RequestKind, RunState
 class Effect(StrEnum):
     """What an event does to the mission. Several may be on; the most severe one counts."""
 
+    WARN = "WARN"
     NO_ENTRY = "NO_ENTRY"
     SLOW = "SLOW"
     HOLD = "HOLD"
