@@ -19,6 +19,7 @@ class RowEndParams:
     Attributes:
         reliable_range: up to there, m ahead, a trunk or post that stands free is seen nearly always.
         gap: so much of both lines must be without objects, m; more than any usual gap between plants.
+        uneven: one line may end so much before the other, m.
         agree: two sightings of the end belong together within that distance, m.
         frames: so many sightings in a row, in agreement, make the end known.
         forget_frames: so many pictures in a row with objects beyond it make it unknown again.
@@ -26,6 +27,7 @@ class RowEndParams:
 
     reliable_range: float = 10.0
     gap: float = 3.0
+    uneven: float = 0.8
     agree: float = 0.7
     frames: int = 4
     forget_frames: int = 2
@@ -53,11 +55,11 @@ class RowEnd:
         if self._distance is not None:
             self._distance -= driven
         if row is not None:
-            self._see(np.concatenate((row.left_x, row.right_x)))
+            self._see(row.left_x, row.right_x)
         return self._distance if self._sightings >= self._params.frames else None
 
-    def _see(self, x: Floats) -> None:
-        last = last_object(x, self._params)
+    def _see(self, left: Floats, right: Floats) -> None:
+        x, last = np.concatenate((left, right)), row_end(left, right, self._params)
         if last is None:
             self._miss(x)
         elif self._distance is not None and abs(last - self._distance) <= self._params.agree:
@@ -76,6 +78,18 @@ class RowEnd:
         self._contradictions += 1
         if self._sightings < p.frames or self._contradictions >= p.forget_frames:
             self.forget()
+
+
+def row_end(left: Floats, right: Floats, params: RowEndParams) -> float | None:
+    """Distance at which the row ends: halfway between the last objects of its two lines; None if no end is in sight.
+
+    Where one line stops much earlier, its last objects were not seen, and the other line tells alone.
+    """
+    last = last_object(np.concatenate((left, right)), params)
+    if last is None:
+        return None
+    lasts = [float(np.max(x[x <= last])) for x in (left, right) if np.any(x <= last)]
+    return float(np.mean(lasts)) if last - min(lasts) <= params.uneven else last
 
 
 def last_object(x: Floats, params: RowEndParams) -> float | None:

@@ -140,13 +140,18 @@ def _placed(
 
 
 def _between(row: Row, lines: tuple[PlantLine, ...]) -> Row:
-    """The row as the centre line between its two lines of plants."""
+    """The row as the centre line between its two lines of plants, from where they begin to where they stop."""
     sides = [line for line in lines if row.id in line.rows]
     if len(sides) != 2:
         return row
-    ends = np.array((row.start, row.end))
-    frames = [side.frame(ends) for side in sides]
-    feet = [side.place(frame[:, 0], np.zeros(2)) for side, frame in zip(sides, frames, strict=True)]
-    start, end = ((feet[0] + feet[1]) / 2).tolist()
-    width = float(np.mean(np.linalg.norm(feet[0] - feet[1], axis=1)))
+    firsts, lasts = zip(*(_along_row(row, side) for side in sides), strict=True)
+    start, end = np.mean(firsts, axis=0).tolist(), np.mean(lasts, axis=0).tolist()
+    frames = [side.frame(np.array((start, end))) for side in sides]
+    width = float(np.mean(np.abs(frames[0][:, 1]) + np.abs(frames[1][:, 1])))
     return replace(row, start=(start[0], start[1]), end=(end[0], end[1]), width=width)
+
+
+def _along_row(row: Row, line: PlantLine) -> tuple[Point, Point]:
+    """The line's ends, the one nearer to the row's start first."""
+    one, other = (line.x0, line.y0), (line.x1, line.y1)
+    return (one, other) if math.dist(one, row.start) <= math.dist(other, row.start) else (other, one)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from navcore.perception.row_end import RowEnd, RowEndParams, last_object, seen_to
+from navcore.perception.row_end import RowEnd, RowEndParams, last_object, row_end, seen_to
 from navcore.perception.row_lines import GroundRow
 
 PARAMS = RowEndParams()
@@ -31,6 +31,21 @@ def seen(*x: float) -> GroundRow:
 )
 def test_the_row_ends_before_a_gap_that_lies_within_range(x: tuple[float, ...], end: float | None) -> None:
     assert last_object(np.array(x), PARAMS) == end
+
+
+@pytest.mark.parametrize(
+    ("left", "right", "end"),
+    [
+        ((3.0, 6.0), (2.0, 5.4), 5.7),  # lines of plants end unevenly
+        ((3.0, 6.0), (2.0, 4.0), 6.0),  # the last plants on the right were not seen
+        ((3.0, 6.0), (), 6.0),
+        ((3.0, 6.0), (5.4, 12.0), 5.7),  # what stands beyond the headland is not this row's
+    ],
+)
+def test_the_end_lies_halfway_between_the_last_plants_of_both_lines(
+    left: tuple[float, ...], right: tuple[float, ...], end: float
+) -> None:
+    assert row_end(np.array(left), np.array(right), PARAMS) == pytest.approx(end)
 
 
 def test_one_picture_is_not_enough() -> None:

@@ -70,6 +70,18 @@ def test_true_rows_lie_midway_between_their_plants(farm: SiteMap) -> None:
     assert row.width == pytest.approx(np.mean(left) - np.mean(right), abs=0.05)
 
 
+def test_true_rows_begin_and_stop_where_the_plants_beside_them_do(farm: SiteMap) -> None:
+    site = true_sites(farm)[3]
+    row = site.rows[2]
+    (x0, y0), length = row.start, math.dist(row.start, row.end)
+    ux, uy = (row.end[0] - x0) / length, (row.end[1] - y0) / length
+    posts = [((p.x - x0) * ux + (p.y - y0) * uy, (p.y - y0) * ux - (p.x - x0) * uy) for p in site.plants
+             if p.kind is PlantKind.POST]  # fmt: skip
+    sides = [[s for s, aside in posts if 0.0 < side * aside < 2.5] for side in (1.0, -1.0)]
+    assert np.mean([min(side) for side in sides]) == pytest.approx(0.0, abs=0.1)  # m
+    assert np.mean([max(side) for side in sides]) == pytest.approx(length, abs=0.1)  # m
+
+
 def test_without_error_the_world_is_the_map(farm: SiteMap) -> None:
     site = perturb(farm, NO_MAP_ERROR, np.random.default_rng(1))
     assert site.rows[1].start == pytest.approx(farm.rows[1].start, abs=1e-9)
