@@ -45,6 +45,7 @@ class ModeFacts:
         to_start, to_end: metres ahead at which the row here begins and ends; None away from rows.
         row_streak: consecutive observations that are valid and agree with the expected row.
         row_age_s: age of the last such observation, None if there was none.
+        row_follows: the headland leads to another row: its place is known best from the row that is left.
         seen_end: distance ahead at which the camera sees the row end, None if it goes on.
         gnss_std: 1-sigma of the pose filter's position, m, None without a pose.
         gnss_streak: consecutive good epochs.
@@ -53,6 +54,7 @@ class ModeFacts:
     segment: SegmentKind
     to_start: float | None
     to_end: float | None
+    row_follows: bool
     row_streak: int
     row_age_s: float | None
     seen_end: float | None
@@ -108,7 +110,7 @@ def _gnss_good(f: ModeFacts, p: ModeSelectorParams) -> bool:
 
 def _clear(f: ModeFacts, p: ModeSelectorParams) -> bool:
     left = f.to_end is None or f.to_end <= -p.clear
-    return left and f.segment in (SegmentKind.EXIT, SegmentKind.ROAD)
+    return left and not f.row_follows and f.segment in (SegmentKind.EXIT, SegmentKind.ROAD)
 
 
 def _metres(value: float | None) -> str:

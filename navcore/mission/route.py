@@ -64,6 +64,12 @@ class Leg:
         """Segment at arc length `s`."""
         return self.segments[self.segment_index(s)]
 
+    def row_follows(self, s: float) -> bool:
+        """Whether nothing but a headland lies between `s`, at a row's end, and the next row."""
+        ahead = self.segments[self.segment_index(s) :]
+        on_the_way = (SegmentKind.EXIT, SegmentKind.HEADLAND)
+        return next((x.kind for x in ahead if x.kind not in on_the_way), None) is SegmentKind.ENTRY
+
     def speed(self, s: float) -> float:
         """Wanted speed at arc length `s`, m/s."""
         return float(np.interp(s, self.line.s, self._speeds))
