@@ -94,8 +94,8 @@ class CaseParams:
 
     source: Farms = Farms.SCORING
     eye: EyeKind = EyeKind.PIXELS
-    farms: int = 9
-    row_changes: int = 24
+    farms: int = 8
+    row_changes: int = 28
     tracks: int = 5
     quick: bool = False
 
