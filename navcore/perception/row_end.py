@@ -21,8 +21,8 @@ class RowEndParams:
         gap: so much of both lines must be without objects, m; more than any usual gap between plants.
         uneven: one line may end so much before the other, m.
         agree: two sightings of the end belong together within that distance, m.
-        least_gain: weight of a sighting after many: the ground pitches the camera, and half a degree moves what stands
-            5 m ahead by 0.3 m, while slipping wheels lose the place only slowly.
+        least_gain: weight of a sighting after many: half a degree of pitch moves what stands 5 m ahead by 0.3 m,
+            while slipping wheels lose the place only slowly.
         frames: so many sightings in a row, in agreement, make the end known.
         forget_frames: so many pictures in a row with objects beyond it make it unknown again.
     """
