@@ -34,7 +34,8 @@ class IndependentCheckParams:
         path_share: displacements may differ by this part of the way driven (slip, wheel scale).
         path_offset: m, and by this much anyway.
         place_offset: m, filter and receiver may differ by this.
-        float_offset: m, and by this in either comparison where GNSS is only float.
+        float_offset: m, and by this in either comparison where GNSS is only float, and by `float_told` times the
+            1-sigma that the receiver tells of it: beside plants float is wrong by metres, and mostly says so.
         patience_s: for how long they may differ by more.
     """
 
@@ -50,6 +51,7 @@ class IndependentCheckParams:
     path_offset: float = 0.15
     place_offset: float = 0.3
     float_offset: float = 1.0
+    float_told: float = 2.0
     patience_s: float = 0.6
 
 
@@ -86,6 +88,7 @@ class Anchor:
     north: float
     yaw: float
     quality: FixQuality
+    told_std: float
 
 
 NO_CAP = SpeedCap(None, "")
@@ -143,7 +146,8 @@ class IndependentCheck:
             return
         height = self._frame.height_m if fix.height_m is None else fix.height_m
         east, north, _ = self._frame.to_enu(fix.lat_deg, fix.lon_deg, height)
-        here = Anchor(leg, float(east), float(north), estimate.yaw, fix.quality)
+        told_std = max(fix.std_east_m or 0.0, fix.std_north_m or 0.0)
+        here = Anchor(leg, float(east), float(north), estimate.yaw, fix.quality, told_std)
         self._compare_place(here, estimate)
         self._compare_path(here)
 
@@ -186,7 +190,7 @@ class IndependentCheck:
         x = estimate.x + c * p.antenna_x - s * p.antenna_y
         y = estimate.y + s * p.antenna_x + c * p.antenna_y
         off = math.hypot(here.east - x, here.north - y)
-        if off <= (p.place_offset if here.quality is FixQuality.RTK_FIXED else p.float_offset):
+        if off <= (p.place_offset if here.quality is FixQuality.RTK_FIXED else self._float_offset(here)):
             self._apart_ns, self._place_reason = None, ""
             return
         self._apart_ns = self._apart_ns or here.leg.stamp_ns
@@ -203,9 +207,13 @@ class IndependentCheck:
         if driven < (p.path if fixed else p.float_path):
             return
         off = self._path_error(start, here)
-        allowed = p.path_share * driven + (p.path_offset if fixed else p.float_offset)
+        allowed = p.path_share * driven + (p.path_offset if fixed else self._float_offset(start, here))
         self._path_reason = "" if off <= allowed else f"GNSS and wheels disagree by {off:.1f} m over {driven:.1f} m"
         self._anchor = here
+
+    def _float_offset(self, *places: Anchor) -> float:
+        """How far float fixes may be off, m."""
+        return self._p.float_offset + self._p.float_told * max(place.told_std for place in places)
 
     def _path_error(self, start: Anchor, here: Anchor) -> float:
         """Distance between the antenna's displacement and the one that wheels, gyro and the filter's yaw foretell."""

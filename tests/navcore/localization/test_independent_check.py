@@ -78,6 +78,15 @@ def test_scattering_float_fixes_slow_the_robot_but_never_stop_it() -> None:
         assert all(cap.speed != 0.0 for _, cap in caps(seed, 30.0, change=partial(float_after_8_s, scatter))[60:])
 
 
+@pytest.mark.parametrize(("told", "stops"), [(0.5, False), (0.05, True)])
+def test_float_fixes_beside_plants_may_be_off_by_what_the_receiver_tells_of_them(told: float, stops: bool) -> None:
+    def beside_plants(fix: GnssFix, t: float) -> GnssFix:
+        away = replace(moved(fix, 1.5, 0.0), quality=FixQuality.RTK_FLOAT, std_east_m=told, std_north_m=told)
+        return away if t >= 8.0 else fix
+
+    assert any(cap.speed == 0.0 for _, cap in caps(3, 11.0, change=beside_plants)[60:]) is stops
+
+
 def test_wrong_heading_is_stopped_within_four_metres_on_float_fixes_too() -> None:
     scatter = np.random.default_rng(7)
     found = caps(1, 25.0, straight, lambda fix, _: as_float(fix, scatter, math.pi))
