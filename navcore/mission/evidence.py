@@ -21,11 +21,13 @@ class RowEvidenceParams:
             width the neighbouring row would be the nearer one. It holds by the tie to what was seen before, and
             outside the row by GNSS as well: a fit that begins between two rows may creep over to the wrong one.
         heading_gate: largest disagreement of the direction, rad: plants on a lattice stand in line crosswise too.
+        width_gate: largest disagreement of its width, as a share: two rows side by side are no row.
         min_quality: 0 to 1.
     """
 
     gate: float = 0.38
     heading_gate: float = 0.16
+    width_gate: float = 0.4
     min_quality: float = 0.15
 
 
@@ -59,7 +61,8 @@ class RowEvidence:
             return False
         near = abs(-seen.offset - expected.y) <= self.params.gate * width
         parallel = abs(wrap(-seen.heading - expected.yaw)) <= self.params.heading_gate
-        return near and parallel and seen.quality >= self.params.min_quality
+        as_wide = seen.width is None or abs(seen.width - width) <= self.params.width_gate * width
+        return near and parallel and as_wide and seen.quality >= self.params.min_quality
 
     def age_s(self, now_ns: int) -> float | None:
         """Age of the newest agreeing observation."""

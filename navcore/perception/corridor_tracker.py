@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,6 +41,8 @@ class CorridorTrackerParams:
         wrong_row: a corridor further from the prior than that share of the width is another row.
         wrong_heading_deg: one that runs that much off the prior is none: plants on a lattice stand in line crosswise
             too.
+        wrong_width: a corridor wider or narrower than told by that share is none: two side by side look like one.
+        keep_width: what is kept of the width's difference from the told one, from one picture to the next.
         max_prior_std: a prior less certain than that share of the width cannot tell a row from its neighbours.
         floor_offset, floor_heading_deg: 1-sigma of what no fit can see: mount, roll, planting.
     """
@@ -63,9 +66,18 @@ class CorridorTrackerParams:
     lost_frames: int = 4
     wrong_row: float = 0.5
     wrong_heading_deg: float = 9.0
+    wrong_width: float = 0.35
+    keep_width: float = 0.97
     max_prior_std: float = 0.3
     floor_offset: float = 0.02
     floor_heading_deg: float = 0.4
+
+
+class Width(NamedTuple):
+    """Of a corridor, m, and its 1-sigma."""
+
+    mean: float
+    std: float
 
 
 @dataclass(slots=True)
@@ -95,7 +107,7 @@ class CorridorTracker:
         """Predict, then follow; or look for the corridor that fits picture and prior best."""
         self._track = self._predicted(cue)
         if self._track is not None:
-            return self._follow(self._track, corners)
+            return self._follow(self._track, corners, _told_width(cue.prior, self._params))
         if len(corners) == 0:
             return _nothing(corners, "no trunk or post in sight")
         return self._start(corners, cue.prior)
@@ -104,17 +116,17 @@ class CorridorTracker:
         """The track in the frame of this picture, None if there is none or it follows another row."""
         if self._track is None or cue.motion is None:
             return None
-        track = _moved(self._track, cue.motion, self._params)
+        track = _moved(self._track, cue.motion, _told_width(cue.prior, self._params), self._params)
         return None if _other_row(track, cue.prior, self._params) else track
 
-    def _follow(self, track: _Track, corners: CornerPoints) -> RowLines:
+    def _follow(self, track: _Track, corners: CornerPoints, told: Width) -> RowLines:
         corridor = self._fit.follow(corners.feet, track.state, _inverse(track.covariance))
         seen = int(np.count_nonzero(corridor.sides))
         near = int(np.count_nonzero(np.nan_to_num(corridor.x, nan=99.0) < 8.0))
         track.doubts = track.doubts + 1 if near >= 4 and seen < self._params.lost_share * near else 0
         track.unseen = 0.0 if seen else track.unseen
         track.state, track.covariance = corridor.state, corridor.covariance
-        reason = self._doubt(track, corridor, len(corners))
+        reason = self._doubt(track, corridor, len(corners), told)
         if reason:
             self._track = None
             return _nothing(corners, reason)
@@ -129,7 +141,7 @@ class CorridorTracker:
         corridor = self._fit.acquire(corners.feet, mean, _inverse(covariance), reach)
         reason = self._too_little(corridor, prior, len(corners))
         track = _Track(state=corridor.state, covariance=corridor.covariance)
-        reason = reason or self._doubt(track, corridor, len(corners))
+        reason = reason or self._doubt(track, corridor, len(corners), _told_width(prior, self._params))
         if reason:
             return _nothing(corners, reason)
         self._track = track
@@ -146,7 +158,7 @@ class CorridorTracker:
             return f"only {objects} trunk{'s' if objects > 1 else ''} or posts in sight"
         return "the trunks and posts in sight do not form a row"
 
-    def _doubt(self, track: _Track, corridor: Corridor, objects: int) -> str:
+    def _doubt(self, track: _Track, corridor: Corridor, objects: int, told: Width) -> str:
         """Why a corridor is not shown, empty if it is."""
         p = self._params
         offset_std, heading_std = np.sqrt(np.diag(track.covariance)[:2])
@@ -154,6 +166,8 @@ class CorridorTracker:
             return "no trunk or post in sight" if objects == 0 else "no trunk or post on the row's lines"
         if track.doubts >= p.lost_frames:
             return "most trunks and posts in sight do not stand on the row's lines"
+        if abs(track.state[2] - told.mean) > p.wrong_width * told.mean:
+            return f"a corridor of {track.state[2]:.1f} m is not the row of {told.mean:.1f} m"
         if offset_std > p.max_offset_std:
             return f"the row's place is only known to {offset_std:.2f} m"
         if heading_std > math.radians(p.max_heading_std_deg):
@@ -196,27 +210,35 @@ def _expected(prior: RowPrior | None, p: CorridorTrackerParams) -> tuple[Floats,
     offset, heading = (prior.offset, prior.heading) if prior else (0.0, 0.0)
     offset_std = prior.std if prior else p.offset_std
     heading_std = prior.heading_std if prior else math.radians(p.heading_std_deg)
+    width = _told_width(prior, p)
+    stds = np.array((offset_std, heading_std, width.std, math.radians(p.pitch_std_deg)))
+    return np.array((offset, heading, width.mean, 0.0)), np.diag(stds**2)
+
+
+def _told_width(prior: RowPrior | None, p: CorridorTrackerParams) -> Width:
+    """The row's as drawn, the usual one where none is told."""
     told = prior.width if prior else None
-    width, width_std = (p.width, p.width_std) if told is None else (told, p.told_width_std)
-    stds = np.array((offset_std, heading_std, width_std, math.radians(p.pitch_std_deg)))
-    return np.array((offset, heading, width, 0.0)), np.diag(stds**2)
+    return Width(p.width, p.width_std) if told is None else Width(told, p.told_width_std)
 
 
-def _moved(track: _Track, motion: SE2, p: CorridorTrackerParams) -> _Track:
+def _moved(track: _Track, motion: SE2, told: Width, p: CorridorTrackerParams) -> _Track:
     """The track seen from the new driving frame, less certain by what was driven and turned.
 
-    The pitch is that of the ground under the robot: it is mostly forgotten from one picture to the next.
+    The pitch is that of the ground under the robot: it is mostly forgotten from one picture to the next. The width
+    goes back to the told one, or a fit could creep until it holds two corridors with a line of plants between them.
     """
     offset, heading, width, pitch = track.state
     across = offset + math.sin(heading) * motion.x - math.cos(heading) * motion.y
     distance = math.hypot(motion.x, motion.y)
-    J = np.diag((1.0, 1.0, 1.0, 0.7))
+    keep = p.keep_width
+    J = np.diag((1.0, 1.0, keep, 0.7))
     J[0, 1] = math.cos(heading) * motion.x + math.sin(heading) * motion.y
     covariance = J @ track.covariance @ J.T
     turn_var = p.turn_drift_per_m**2 * distance + (p.turn_slip * motion.yaw) ** 2
     pitch_var = (1.0 - 0.7**2) * math.radians(p.pitch_std_deg) ** 2
-    covariance += np.diag((p.drift_per_m**2 * distance, turn_var, 0.02**2 * distance, pitch_var))
-    state = np.array((across, wrap(heading - motion.yaw), width, 0.7 * pitch))
+    width_var = (1.0 - keep**2) * told.std**2
+    covariance += np.diag((p.drift_per_m**2 * distance, turn_var, width_var, pitch_var))
+    state = np.array((across, wrap(heading - motion.yaw), told.mean + keep * (width - told.mean), 0.7 * pitch))
     return _Track(state=state, covariance=covariance, unseen=track.unseen + distance, doubts=track.doubts)
 
 
