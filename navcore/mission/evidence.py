@@ -27,7 +27,7 @@ class RowEvidenceParams:
 
     gate: float = 0.38
     heading_gate: float = 0.16
-    width_gate: float = 0.4
+    width_gate: float = 0.3
     min_quality: float = 0.15
 
 

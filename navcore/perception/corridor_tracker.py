@@ -41,8 +41,8 @@ class CorridorTrackerParams:
         wrong_row: a corridor further from the prior than that share of the width is another row.
         wrong_heading_deg: one that runs that much off the prior is none: plants on a lattice stand in line crosswise
             too.
-        wrong_width: a corridor wider or narrower than told by that share is none: two side by side look like one.
-        keep_width: what is kept of the width's difference from the told one, from one picture to the next.
+        wrong_width: a corridor wider or narrower than told by that share is none: a fit can creep over a line of
+            plants until it holds two.
         max_prior_std: a prior less certain than that share of the width cannot tell a row from its neighbours.
         floor_offset, floor_heading_deg: 1-sigma of what no fit can see: mount, roll, planting.
     """
@@ -66,8 +66,7 @@ class CorridorTrackerParams:
     lost_frames: int = 4
     wrong_row: float = 0.5
     wrong_heading_deg: float = 9.0
-    wrong_width: float = 0.35
-    keep_width: float = 0.97
+    wrong_width: float = 0.22
     max_prior_std: float = 0.3
     floor_offset: float = 0.02
     floor_heading_deg: float = 0.4
@@ -116,7 +115,7 @@ class CorridorTracker:
         """The track in the frame of this picture, None if there is none or it follows another row."""
         if self._track is None or cue.motion is None:
             return None
-        track = _moved(self._track, cue.motion, _told_width(cue.prior, self._params), self._params)
+        track = _moved(self._track, cue.motion, self._params)
         return None if _other_row(track, cue.prior, self._params) else track
 
     def _follow(self, track: _Track, corners: CornerPoints, told: Width) -> RowLines:
@@ -221,24 +220,21 @@ def _told_width(prior: RowPrior | None, p: CorridorTrackerParams) -> Width:
     return Width(p.width, p.width_std) if told is None else Width(told, p.told_width_std)
 
 
-def _moved(track: _Track, motion: SE2, told: Width, p: CorridorTrackerParams) -> _Track:
+def _moved(track: _Track, motion: SE2, p: CorridorTrackerParams) -> _Track:
     """The track seen from the new driving frame, less certain by what was driven and turned.
 
-    The pitch is that of the ground under the robot: it is mostly forgotten from one picture to the next. The width
-    goes back to the told one, or a fit could creep until it holds two corridors with a line of plants between them.
+    The pitch is that of the ground under the robot: it is mostly forgotten from one picture to the next.
     """
     offset, heading, width, pitch = track.state
     across = offset + math.sin(heading) * motion.x - math.cos(heading) * motion.y
     distance = math.hypot(motion.x, motion.y)
-    keep = p.keep_width
-    J = np.diag((1.0, 1.0, keep, 0.7))
+    J = np.diag((1.0, 1.0, 1.0, 0.7))
     J[0, 1] = math.cos(heading) * motion.x + math.sin(heading) * motion.y
     covariance = J @ track.covariance @ J.T
     turn_var = p.turn_drift_per_m**2 * distance + (p.turn_slip * motion.yaw) ** 2
     pitch_var = (1.0 - 0.7**2) * math.radians(p.pitch_std_deg) ** 2
-    width_var = (1.0 - keep**2) * told.std**2
-    covariance += np.diag((p.drift_per_m**2 * distance, turn_var, width_var, pitch_var))
-    state = np.array((across, wrap(heading - motion.yaw), told.mean + keep * (width - told.mean), 0.7 * pitch))
+    covariance += np.diag((p.drift_per_m**2 * distance, turn_var, 0.02**2 * distance, pitch_var))
+    state = np.array((across, wrap(heading - motion.yaw), width, 0.7 * pitch))
     return _Track(state=state, covariance=covariance, unseen=track.unseen + distance, doubts=track.doubts)
 
 

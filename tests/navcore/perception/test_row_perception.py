@@ -234,3 +234,19 @@ def test_the_centre_line_is_drawn_between_the_sides_and_the_points_say_what_was_
     assert view.centre.u0 > view.bisector.u0 > 320.0  # px
     assert any(p.kept for p in view.points)
     assert any(not p.kept for p in view.points)  # the neighbouring rows
+
+
+@pytest.mark.parametrize(("width", "taken"), [(2.6, True), (3.5, True), (4.2, False)])
+def test_a_corridor_is_the_row_that_is_meant_only_if_it_is_about_as_wide(width: float, taken: bool) -> None:
+    """A fit that follows plants further and further to one side ends up holding two rows."""
+    told = Told()
+    perception = RowPerception(FRONT, told, RowPerceptionParams())
+    prior = RowPrior(offset=0.0, heading=0.0, std=0.3, width=3.0)
+    rows = []
+    for i in range(60):
+        told.objects = boxes_at(FRONT, corridor_feet(SE2(0.05 * i, 0.0, 0.0), width=width, lines=1))
+        view = perception.process(picture(FRONT), i, CameraName.FRONT, prior=prior, motion=SE2(0.05, 0.0, 0.0))
+        rows.append(view.row)
+    assert all(row.valid for row in rows) is taken
+    assert max(row.width for row in rows if row.width is not None) < 3.7  # m
+    assert taken or any("is not the row of 3.0 m" in row.reason for row in rows)

@@ -1,0 +1,36 @@
+"""What is taken for the row that is meant."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from navcore.geometry.se2 import SE2
+from navcore.localization.path_anchor import RowLine
+from navcore.messages import CameraName, RowObservation
+from navcore.mission.evidence import RowEvidence, RowEvidenceParams
+
+ROW = RowLine(0.0, 0.0, 0.0)
+SEEN = RowObservation(
+    stamp_ns=1, camera=CameraName.FRONT, valid=True, reason="", offset=0.1, heading=0.02, width=3.1, quality=0.9,
+)  # fmt: skip
+
+
+def judged(seen: RowObservation, *expected: SE2) -> bool:
+    return RowEvidence(RowEvidenceParams()).judge(seen, ROW, expected or (SE2(5.0, -0.1, 0.0),), 3.0)
+
+
+def test_the_row_where_it_is_expected_is_the_one_that_is_meant() -> None:
+    assert judged(SEEN)
+
+
+@pytest.mark.parametrize(
+    "other", [{"offset": 1.6}, {"heading": 0.3}, {"width": 6.0}, {"width": 1.5}, {"quality": 0.1}, {"valid": False}]
+)
+def test_a_row_elsewhere_askew_or_of_another_width_is_not(other: dict[str, float]) -> None:
+    assert not judged(replace(SEEN, **other))
+
+
+def test_all_who_know_the_place_must_agree() -> None:
+    assert not judged(SEEN, SE2(5.0, -0.1, 0.0), SE2(5.0, 1.5, 0.0))
