@@ -3,90 +3,27 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from navcore.geometry.angles import wrap
 from navcore.geometry.line2 import Line2
 from navcore.geometry.pinhole import PinholeCamera
-from navcore.geometry.se2 import SE2
 from navcore.perception.corner_points import CornerPoints
-from navcore.perception.corridor_fit import Corridor, CorridorFit, CorridorFitParams
+from navcore.perception.corridor_fit import Corridor, CorridorFit
+from navcore.perception.corridor_track import (
+    CorridorTrackerParams,
+    Track,
+    Width,
+    expected,
+    moved,
+    other_row,
+    told_width,
+)
 from navcore.perception.image_lines import image_line
 from navcore.perception.row_lines import GroundRow, RowCue, RowLines, RowPrior
 
 Floats = NDArray[np.float64]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class CorridorTrackerParams:
-    """When a corridor is believed, and how fast belief fades. Ours; set on rendered frames.
-
-    Attributes:
-        fit: of one picture.
-        width, width_std: usual corridor width where none is told, m; `told_width_std` where one is.
-        offset_std, heading_std_deg: prior of a robot somewhere in a corridor, without a `RowPrior`.
-        pitch_std_deg: 1-sigma of the camera's pitch about its mount: +-2 deg of terrain.
-        drift_per_m, turn_drift_per_m: how fast offset (m) and heading (rad) become uncertain per square root of a
-            metre driven; `turn_slip` is the share of a turn by which odometry may be wrong.
-        min_objects: fewer do not start a track.
-        one_side_objects: so many on one side start a track where a `RowPrior` is given, the other side unseen.
-        max_offset_std, max_heading_std_deg: a row less certain than that is not shown.
-        carry: so far a row is carried without any evidence, m.
-        lost_share, lost_frames: a track that explains less than that share of the near objects in so many pictures
-            in a row is dropped.
-        wrong_row: a corridor further from the prior than that share of the width is another row.
-        wrong_heading_deg: one that runs that much off the prior is none: plants on a lattice stand in line crosswise
-            too.
-        wrong_width: a corridor wider or narrower than told by that share is none: a fit can creep over a line of
-            plants until it holds two.
-        max_prior_std: a prior less certain than that share of the width cannot tell a row from its neighbours.
-        floor_offset, floor_heading_deg: 1-sigma of what no fit can see: mount, roll, planting.
-    """
-
-    fit: CorridorFitParams = CorridorFitParams()
-    width: float = 3.0
-    width_std: float = 0.45
-    told_width_std: float = 0.15
-    offset_std: float = 0.7
-    heading_std_deg: float = 12.0
-    pitch_std_deg: float = 1.3
-    drift_per_m: float = 0.04
-    turn_drift_per_m: float = 0.02
-    turn_slip: float = 0.2
-    min_objects: int = 4
-    one_side_objects: int = 3
-    max_offset_std: float = 0.22
-    max_heading_std_deg: float = 4.0
-    carry: float = 1.0
-    lost_share: float = 0.34
-    lost_frames: int = 4
-    wrong_row: float = 0.5
-    wrong_heading_deg: float = 9.0
-    wrong_width: float = 0.22
-    max_prior_std: float = 0.3
-    floor_offset: float = 0.02
-    floor_heading_deg: float = 0.4
-
-
-class Width(NamedTuple):
-    """Of a corridor, m, and its 1-sigma."""
-
-    mean: float
-    std: float
-
-
-@dataclass(slots=True)
-class _Track:
-    """What is remembered of the last picture."""
-
-    state: Floats
-    covariance: Floats
-    unseen: float = 0.0
-    doubts: int = 0
 
 
 class CorridorTracker:
@@ -96,7 +33,7 @@ class CorridorTracker:
         self._camera = camera
         self._params = params
         self._fit = CorridorFit(camera, params.fit)
-        self._track: _Track | None = None
+        self._track: Track | None = None
 
     def forget(self) -> None:
         """Drop the track."""
@@ -106,19 +43,19 @@ class CorridorTracker:
         """Predict, then follow; or look for the corridor that fits picture and prior best."""
         self._track = self._predicted(cue)
         if self._track is not None:
-            return self._follow(self._track, corners, _told_width(cue.prior, self._params))
+            return self._follow(self._track, corners, told_width(cue.prior, self._params))
         if len(corners) == 0:
             return _nothing(corners, "no trunk or post in sight")
         return self._start(corners, cue.prior)
 
-    def _predicted(self, cue: RowCue) -> _Track | None:
+    def _predicted(self, cue: RowCue) -> Track | None:
         """The track in the frame of this picture, None if there is none or it follows another row."""
         if self._track is None or cue.motion is None:
             return None
-        track = _moved(self._track, cue.motion, self._params)
-        return None if _other_row(track, cue.prior, self._params) else track
+        track = moved(self._track, cue.motion, self._params)
+        return None if other_row(track, cue.prior, self._params) else track
 
-    def _follow(self, track: _Track, corners: CornerPoints, told: Width) -> RowLines:
+    def _follow(self, track: Track, corners: CornerPoints, told: Width) -> RowLines:
         corridor = self._fit.follow(corners.feet, track.state, _inverse(track.covariance))
         seen = int(np.count_nonzero(corridor.sides))
         near = int(np.count_nonzero(np.nan_to_num(corridor.x, nan=99.0) < 8.0))
@@ -132,15 +69,15 @@ class CorridorTracker:
         return self._lines(corridor, corners)
 
     def _start(self, corners: CornerPoints, prior: RowPrior | None) -> RowLines:
-        mean, covariance = _expected(prior, self._params)
+        mean, covariance = expected(prior, self._params)
         if math.sqrt(covariance[0, 0]) > self._params.max_prior_std * mean[2]:
             return _nothing(corners, "the row's expected place is too vague to tell it from its neighbours")
         turn = math.radians(self._params.wrong_heading_deg) if prior is not None else math.pi / 2
         reach = (self._params.wrong_row * float(mean[2]), turn)
         corridor = self._fit.acquire(corners.feet, mean, _inverse(covariance), reach)
         reason = self._too_little(corridor, prior, len(corners))
-        track = _Track(state=corridor.state, covariance=corridor.covariance)
-        reason = reason or self._doubt(track, corridor, len(corners), _told_width(prior, self._params))
+        track = Track(state=corridor.state, covariance=corridor.covariance)
+        reason = reason or self._doubt(track, corridor, len(corners), told_width(prior, self._params))
         if reason:
             return _nothing(corners, reason)
         self._track = track
@@ -157,7 +94,7 @@ class CorridorTracker:
             return f"only {objects} trunk{'s' if objects > 1 else ''} or posts in sight"
         return "the trunks and posts in sight do not form a row"
 
-    def _doubt(self, track: _Track, corridor: Corridor, objects: int, told: Width) -> str:
+    def _doubt(self, track: Track, corridor: Corridor, objects: int, told: Width) -> str:
         """Why a corridor is not shown, empty if it is."""
         p = self._params
         offset_std, heading_std = np.sqrt(np.diag(track.covariance)[:2])
@@ -202,49 +139,6 @@ def _nothing(corners: CornerPoints, reason: str) -> RowLines:
     return RowLines(
         left=None, right=None, kept=none, on_left=corners.left, left_seen=False, right_seen=False, reason=reason
     )
-
-
-def _expected(prior: RowPrior | None, p: CorridorTrackerParams) -> tuple[Floats, Floats]:
-    """Mean (4,) and covariance (4, 4) before the first picture."""
-    offset, heading = (prior.offset, prior.heading) if prior else (0.0, 0.0)
-    offset_std = prior.std if prior else p.offset_std
-    heading_std = prior.heading_std if prior else math.radians(p.heading_std_deg)
-    width = _told_width(prior, p)
-    stds = np.array((offset_std, heading_std, width.std, math.radians(p.pitch_std_deg)))
-    return np.array((offset, heading, width.mean, 0.0)), np.diag(stds**2)
-
-
-def _told_width(prior: RowPrior | None, p: CorridorTrackerParams) -> Width:
-    """The row's as drawn, the usual one where none is told."""
-    told = prior.width if prior else None
-    return Width(p.width, p.width_std) if told is None else Width(told, p.told_width_std)
-
-
-def _moved(track: _Track, motion: SE2, p: CorridorTrackerParams) -> _Track:
-    """The track seen from the new driving frame, less certain by what was driven and turned.
-
-    The pitch is that of the ground under the robot: it is mostly forgotten from one picture to the next.
-    """
-    offset, heading, width, pitch = track.state
-    across = offset + math.sin(heading) * motion.x - math.cos(heading) * motion.y
-    distance = math.hypot(motion.x, motion.y)
-    J = np.diag((1.0, 1.0, 1.0, 0.7))
-    J[0, 1] = math.cos(heading) * motion.x + math.sin(heading) * motion.y
-    covariance = J @ track.covariance @ J.T
-    turn_var = p.turn_drift_per_m**2 * distance + (p.turn_slip * motion.yaw) ** 2
-    pitch_var = (1.0 - 0.7**2) * math.radians(p.pitch_std_deg) ** 2
-    covariance += np.diag((p.drift_per_m**2 * distance, turn_var, 0.02**2 * distance, pitch_var))
-    state = np.array((across, wrap(heading - motion.yaw), width, 0.7 * pitch))
-    return _Track(state=state, covariance=covariance, unseen=track.unseen + distance, doubts=track.doubts)
-
-
-def _other_row(track: _Track, prior: RowPrior | None, p: CorridorTrackerParams) -> bool:
-    """Whether the corridor lies or runs too far from the expected one to be it. A vague prior cannot say so."""
-    if prior is None or prior.std > p.max_prior_std * track.state[2]:
-        return False
-    aside = abs(track.state[0] - prior.offset) > p.wrong_row * track.state[2]
-    askew = abs(wrap(track.state[1] - prior.heading)) > math.radians(p.wrong_heading_deg)
-    return bool(aside or askew)
 
 
 def _inverse(matrix: Floats) -> Floats:

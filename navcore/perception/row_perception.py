@@ -12,7 +12,8 @@ from navcore.geometry.se2 import SE2
 from navcore.messages import CameraName, CameraView, DetectedObject
 from navcore.perception.camera_view import camera_view, row_observation
 from navcore.perception.corner_points import CornerPoints, corner_points
-from navcore.perception.corridor_tracker import CorridorTracker, CorridorTrackerParams
+from navcore.perception.corridor_track import CorridorTrackerParams
+from navcore.perception.corridor_tracker import CorridorTracker
 from navcore.perception.detector import Detector, Image, picture_fault
 from navcore.perception.geometric_filter import GeometricFilterParams, geometric_filter
 from navcore.perception.ground_row import GroundRowParams, ground_row

@@ -1,0 +1,128 @@
+"""One corridor as it is remembered from picture to picture, and what is expected of it before the first."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from navcore.geometry.angles import wrap
+from navcore.geometry.se2 import SE2
+from navcore.perception.corridor_fit import CorridorFitParams
+from navcore.perception.row_lines import RowPrior
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CorridorTrackerParams:
+    """When a corridor is believed, and how fast belief fades. Ours; set on rendered frames.
+
+    Attributes:
+        fit: of one picture.
+        width, width_std: usual corridor width where none is told, m; `told_width_std` where one is.
+        offset_std, heading_std_deg: prior of a robot somewhere in a corridor, without a `RowPrior`.
+        pitch_std_deg: 1-sigma of the camera's pitch about its mount: +-2 deg of terrain.
+        drift_per_m, turn_drift_per_m: how fast offset (m) and heading (rad) become uncertain per square root of a
+            metre driven; `turn_slip` is the share of a turn by which odometry may be wrong.
+        min_objects: fewer do not start a track.
+        one_side_objects: so many on one side start a track where a `RowPrior` is given, the other side unseen.
+        max_offset_std, max_heading_std_deg: a row less certain than that is not shown.
+        carry: so far a row is carried without any evidence, m.
+        lost_share, lost_frames: a track that explains less than that share of the near objects in so many pictures
+            in a row is dropped.
+        wrong_row: a corridor further from the prior than that share of the width is another row.
+        wrong_heading_deg: one that runs that much off the prior is none: plants on a lattice stand in line crosswise
+            too.
+        wrong_width: a corridor wider or narrower than told by that share is none: a fit can creep over a line of
+            plants until it holds two.
+        max_prior_std: a prior less certain than that share of the width cannot tell a row from its neighbours.
+        floor_offset, floor_heading_deg: 1-sigma of what no fit can see: mount, roll, planting.
+    """
+
+    fit: CorridorFitParams = CorridorFitParams()
+    width: float = 3.0
+    width_std: float = 0.45
+    told_width_std: float = 0.15
+    offset_std: float = 0.7
+    heading_std_deg: float = 12.0
+    pitch_std_deg: float = 1.3
+    drift_per_m: float = 0.04
+    turn_drift_per_m: float = 0.02
+    turn_slip: float = 0.2
+    min_objects: int = 4
+    one_side_objects: int = 3
+    max_offset_std: float = 0.22
+    max_heading_std_deg: float = 4.0
+    carry: float = 1.0
+    lost_share: float = 0.34
+    lost_frames: int = 4
+    wrong_row: float = 0.5
+    wrong_heading_deg: float = 9.0
+    wrong_width: float = 0.22
+    max_prior_std: float = 0.3
+    floor_offset: float = 0.02
+    floor_heading_deg: float = 0.4
+
+
+class Width(NamedTuple):
+    """Of a corridor, m, and its 1-sigma."""
+
+    mean: float
+    std: float
+
+
+@dataclass(slots=True)
+class Track:
+    """What is remembered of the last picture."""
+
+    state: Floats
+    covariance: Floats
+    unseen: float = 0.0
+    doubts: int = 0
+
+
+def expected(prior: RowPrior | None, p: CorridorTrackerParams) -> tuple[Floats, Floats]:
+    """Mean (4,) and covariance (4, 4) before the first picture."""
+    offset, heading = (prior.offset, prior.heading) if prior else (0.0, 0.0)
+    offset_std = prior.std if prior else p.offset_std
+    heading_std = prior.heading_std if prior else math.radians(p.heading_std_deg)
+    width = told_width(prior, p)
+    stds = np.array((offset_std, heading_std, width.std, math.radians(p.pitch_std_deg)))
+    return np.array((offset, heading, width.mean, 0.0)), np.diag(stds**2)
+
+
+def told_width(prior: RowPrior | None, p: CorridorTrackerParams) -> Width:
+    """The row's as drawn, the usual one where none is told."""
+    told = prior.width if prior else None
+    return Width(p.width, p.width_std) if told is None else Width(told, p.told_width_std)
+
+
+def moved(track: Track, motion: SE2, p: CorridorTrackerParams) -> Track:
+    """The track seen from the new driving frame, less certain by what was driven and turned.
+
+    The pitch is that of the ground under the robot: it is mostly forgotten from one picture to the next.
+    """
+    offset, heading, width, pitch = track.state
+    across = offset + math.sin(heading) * motion.x - math.cos(heading) * motion.y
+    distance = math.hypot(motion.x, motion.y)
+    J = np.diag((1.0, 1.0, 1.0, 0.7))
+    J[0, 1] = math.cos(heading) * motion.x + math.sin(heading) * motion.y
+    covariance = J @ track.covariance @ J.T
+    turn_var = p.turn_drift_per_m**2 * distance + (p.turn_slip * motion.yaw) ** 2
+    pitch_var = (1.0 - 0.7**2) * math.radians(p.pitch_std_deg) ** 2
+    covariance += np.diag((p.drift_per_m**2 * distance, turn_var, 0.02**2 * distance, pitch_var))
+    state = np.array((across, wrap(heading - motion.yaw), width, 0.7 * pitch))
+    return Track(state=state, covariance=covariance, unseen=track.unseen + distance, doubts=track.doubts)
+
+
+def other_row(track: Track, prior: RowPrior | None, p: CorridorTrackerParams) -> bool:
+    """Whether the corridor lies or runs too far from the expected one to be it. A vague prior cannot say so."""
+    if prior is None or prior.std > p.max_prior_std * track.state[2]:
+        return False
+    aside = abs(track.state[0] - prior.offset) > p.wrong_row * track.state[2]
+    askew = abs(wrap(track.state[1] - prior.heading)) > math.radians(p.wrong_heading_deg)
+    return bool(aside or askew)
