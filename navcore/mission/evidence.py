@@ -23,12 +23,14 @@ class RowEvidenceParams:
         heading_gate: largest disagreement of the direction, rad: plants on a lattice stand in line crosswise too.
         width_gate: largest disagreement of its width, as a share: two rows side by side are no row.
         min_quality: 0 to 1.
+        looks_s: a picture older than that shows nothing of now, s.
     """
 
     gate: float = 0.38
     heading_gate: float = 0.16
     width_gate: float = 0.3
     min_quality: float = 0.15
+    looks_s: float = 0.5
 
 
 class RowEvidence:
@@ -67,6 +69,10 @@ class RowEvidence:
     def age_s(self, now_ns: int) -> float | None:
         """Age of the newest agreeing observation."""
         return None if self.agreeing is None else (now_ns - self.agreeing.stamp_ns) * NS
+
+    def looks(self, now_ns: int) -> bool:
+        """Whether the camera shows pictures, with or without a row in them."""
+        return self.newest is not None and (now_ns - self.newest.stamp_ns) * NS <= self.params.looks_s
 
     @property
     def reason(self) -> str:

@@ -46,6 +46,7 @@ class ModeFacts:
         row_streak: consecutive observations that are valid and agree with the expected row.
         row_age_s: age of the last such observation, None if there was none.
         row_follows: the headland leads to another row: its place is known best from the row that is left.
+        looks: the camera shows pictures, whether there is a row in them or not.
         seen_end: distance ahead at which the camera sees the row end, None if it goes on.
         gnss_std: 1-sigma of the pose filter's position, m, None without a pose.
         gnss_streak: consecutive good epochs.
@@ -57,6 +58,7 @@ class ModeFacts:
     row_follows: bool
     row_streak: int
     row_age_s: float | None
+    looks: bool
     seen_end: float | None
     gnss_std: float | None
     gnss_streak: int
@@ -91,12 +93,14 @@ def _lost(f: ModeFacts, p: ModeSelectorParams) -> bool:
 def _at_end(f: ModeFacts, p: ModeSelectorParams) -> bool:
     """By the row's end where it is known: the path may slide back over a joint when the row's place is corrected.
 
-    Near the end the last plants leave the picture, so an end that is seen counts from further away.
+    Near the end the last plants leave the picture, so an end that is seen counts from further away, and too few of
+    them to make a row are its last ones: a robot that was stopped there would wait for ever.
     """
     if f.to_end is None:
         return f.segment in (SegmentKind.EXIT, SegmentKind.HEADLAND, SegmentKind.ROAD)
     seen = f.seen_end is not None and f.seen_end < p.seen_end_zone and f.to_end < p.again
-    return seen or f.to_end < p.end_zone
+    last_plants = f.looks and _lost(f, p) and f.to_end < p.again
+    return seen or last_plants or f.to_end < p.end_zone
 
 
 def _row_goes_on(f: ModeFacts, p: ModeSelectorParams) -> bool:

@@ -247,6 +247,7 @@ class Pilot:
             row_follows=self.leg.row_follows(self.place.s),
             row_streak=self.row.streak,
             row_age_s=self.row.age_s(at.now_ns),
+            looks=self.row.looks(at.now_ns),
             seen_end=seen.end_distance if seen else None,
             gnss_std=at.gnss_std,
             gnss_streak=at.gnss_streak,

@@ -11,7 +11,7 @@ from navcore.mission.mode_selector import ModeFacts, ModeSelectorParams, select_
 PARAMS = ModeSelectorParams()
 OPEN_ROAD = ModeFacts(
     segment=SegmentKind.ROAD, to_start=None, to_end=None, row_follows=False, row_streak=0, row_age_s=None,
-    seen_end=None, gnss_std=0.02, gnss_streak=100,
+    looks=True, seen_end=None, gnss_std=0.02, gnss_streak=100,
 )  # fmt: skip
 BEFORE_ROW = replace(OPEN_ROAD, segment=SegmentKind.ENTRY, to_start=3.0, to_end=63.0, row_streak=5, row_age_s=0.1)
 IN_ROW = replace(BEFORE_ROW, segment=SegmentKind.ROW, to_start=-30.0, to_end=30.0, gnss_std=1.5, gnss_streak=0)
@@ -73,6 +73,13 @@ def test_headland_is_turned_without_gnss_and_leads_into_the_next_row() -> None:
     assert mode_after(NavMode.ROW_END, turning) is NavMode.HEADLAND
     assert mode_after(NavMode.HEADLAND, turning) is NavMode.HEADLAND
     assert mode_after(NavMode.HEADLAND, replace(BEFORE_ROW, gnss_std=1.5)) is NavMode.ROW_ENTRY
+
+
+def test_a_robot_stopped_before_the_last_plants_goes_on_to_the_end_unless_its_camera_is_silent() -> None:
+    few_left = replace(IN_ROW, to_end=4.0, row_streak=0, row_age_s=5.0)
+    assert mode_after(NavMode.ROW, few_left) is NavMode.ROW_END
+    assert mode_after(NavMode.ROW, replace(few_left, looks=False)) is NavMode.ROW
+    assert mode_after(NavMode.ROW, replace(few_left, to_end=8.0)) is NavMode.ROW
 
 
 def test_on_the_way_to_the_next_row_gnss_does_not_move_the_path_off_the_row_just_left() -> None:
