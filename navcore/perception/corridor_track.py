@@ -37,8 +37,8 @@ class CorridorTrackerParams:
         wrong_row: a corridor further from the prior than that share of the width is another row.
         wrong_heading_deg: one that runs that much off the prior is none: plants on a lattice stand in line crosswise
             too.
-        wrong_width: a corridor wider or narrower than told by that share is none: a fit can creep over a line of
-            plants until it holds two.
+        wrong_width: a corridor wider or narrower than told by that share and by 3-sigma is none: a fit can creep over
+            a line of plants until it holds two.
         max_prior_std: a prior less certain than that share of the width cannot tell a row from its neighbours.
         floor_offset, floor_heading_deg: 1-sigma of what no fit can see: mount, roll, planting.
     """

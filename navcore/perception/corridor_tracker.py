@@ -102,7 +102,7 @@ class CorridorTracker:
             return "no trunk or post in sight" if objects == 0 else "no trunk or post on the row's lines"
         if track.doubts >= p.lost_frames:
             return "most trunks and posts in sight do not stand on the row's lines"
-        if abs(track.state[2] - told.mean) > p.wrong_width * told.mean:
+        if abs(track.state[2] - told.mean) > max(p.wrong_width * told.mean, 3.0 * told.std):
             return f"a corridor of {track.state[2]:.1f} m is not the row of {told.mean:.1f} m"
         if offset_std > p.max_offset_std:
             return f"the row's place is only known to {offset_std:.2f} m"

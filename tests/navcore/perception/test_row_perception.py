@@ -250,3 +250,9 @@ def test_a_corridor_is_the_row_that_is_meant_only_if_it_is_about_as_wide(width: 
     assert all(row.valid for row in rows) is taken
     assert max(row.width for row in rows if row.width is not None) < 3.7  # m
     assert taken or any("is not the row of 3.0 m" in row.reason for row in rows)
+
+
+def test_where_no_width_is_told_a_wide_row_is_a_row() -> None:
+    row = look(SE2(0.0, 0.1, 0.0), width=3.9, lines=1).row
+    assert row.valid, row.reason
+    assert row.width == pytest.approx(3.9, abs=0.2)  # m
