@@ -22,6 +22,7 @@ class DeadReckoningParams:
         gyro_timeout_s: a gyro silent for longer is replaced by the wheels' turn rate, divided by wheel_turn_ratio.
         ahead_s: a pose is extrapolated at most so far beyond the newest input.
         most_scale: no more than this share of the wheels' speed is taken for their error.
+        most_bias: no more than this turn rate is taken for the gyro's error, rad/s; consumer MEMS stay below 0.02.
     """
 
     history_s: float = 10.0
@@ -31,6 +32,7 @@ class DeadReckoningParams:
     wheel_turn_ratio: float = 1.6
     ahead_s: float = 0.5
     most_scale: float = 0.1
+    most_bias: float = 0.02
 
 
 class DeadReckoning:
@@ -48,10 +50,14 @@ class DeadReckoning:
         self._bias = 0.0
         self._scale = 1.0
 
-    def learn_scale(self, speed_scale: float) -> None:
-        """From now on the wheels' speed is wrong by this share: they slip, and tyres wear."""
-        most = self._p.most_scale
-        self._scale = 1.0 + min(max(speed_scale, -most), most)
+    def learn(self, speed_scale: float, gyro_bias: float) -> None:
+        """From now on the wheels' speed is wrong by this share, and the gyro by so many rad/s.
+
+        Wheels slip and tyres wear; a bias wanders while the robot drives, where standing still cannot show it.
+        """
+        p = self._p
+        self._scale = 1.0 + min(max(speed_scale, -p.most_scale), p.most_scale)
+        self._bias = min(max(gyro_bias, -p.most_bias), p.most_bias)
 
     def add_wheels(self, stamp_ns: int, v: float, omega: float) -> None:
         """Measured speed, m/s, and turn rate of the wheels, rad/s."""

@@ -123,7 +123,7 @@ class PoseFilter:
             return self._gnss.apply(b, fix, east, north, self._motion.velocity(b).omega)
 
         self._count(self._history.add(Event(fix.stamp_ns, apply)), fix.stamp_ns)
-        self._odometry.learn_scale(float(self._history.newest.mean[SPEED_SCALE]))
+        self._tell_odometry(self._history.newest)
 
     def add_row(self, seen: RowObservation, line: SE2) -> None:
         """A row seen by a camera; `line` is a point of its centre line in `map` and its direction, either way."""
@@ -132,6 +132,10 @@ class PoseFilter:
             return
         event = Event(seen.stamp_ns, lambda b: [self._row.apply(b, seen, line)])
         self._count(self._history.add(event), seen.stamp_ns)
+        self._tell_odometry(self._history.newest)
+
+    def _tell_odometry(self, b: Belief) -> None:
+        self._odometry.learn(float(b.mean[SPEED_SCALE]), float(b.mean[GYRO_BIAS]))
 
     def restart(self, reason: str) -> None:
         """Forget the pose and wait for a new position and heading, at an operator's word."""

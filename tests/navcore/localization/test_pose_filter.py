@@ -255,6 +255,17 @@ def test_gyro_bias_is_learnt_while_standing() -> None:
     assert still_then_blind.worst_yaw() < math.radians(2.5)
 
 
+def test_odometry_knows_the_gyro_bias_that_only_driving_showed() -> None:
+    """It never stood still; 0.02 rad/s would turn it by 11 deg in the 10 s."""
+    world = Drive(31, lambda t: (0.8, 0.0), Errors(gyro_bias=0.02))
+    pose_filter = PoseFilter(FRAME, PARAMS)
+    yaws: list[float] = []
+    for now_ns, message in world.run(30.0):
+        feed(pose_filter, message)
+        yaws += [pose_filter.odom_at(now_ns).yaw] if now_ns in (START_NS + 20 * SECOND, START_NS + 30 * SECOND) else []
+    assert abs(math.remainder(yaws[-1] - yaws[0], math.tau)) < math.radians(1.0)
+
+
 def test_turn_on_the_spot_follows_the_gyro_and_not_the_wheels() -> None:
     """Wheels over-read the turn 1.7 times; without GNSS the yaw must still be right within 2 deg."""
     result = drive(
