@@ -22,7 +22,7 @@ from navcore.topics import NAV_STATUS
 from navcore.transport.codec import decode, encode
 from navcore.transport.pubsub import Subscriber
 
-PROMPT = ("guard", "navigator", "world")
+PROMPT = ("guard", "navigator", "world", "row_worker")
 MS = 1_000_000
 START_S, STATE_S = 60.0, 30.0
 STAND_S, MOVE_S, POLL_S = 1.0, 5.0, 0.1

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import argparse
 import contextlib
-import gc
 import os
 import select
 import signal
@@ -22,8 +21,10 @@ from navcore.chassis.can_bus import FAILURES, OneBus
 from navcore.chassis.guard import Frames, Guard, GuardParams
 from navcore.chassis.limits import LimitParams
 from navcore.chassis.protocol import LONGEST_DATAGRAM, answer_stop, decode_motion, decode_request, encode_state
+from navcore.promptness import be_prompt, no_pauses
 
 TICK_NS = 20_000_000
+PRIORITY = 30  # before all others on board
 BURST = 32  # datagrams or frames read at a time, so that no flood can hold off a STOP
 CREDENTIALS = struct.Struct("3i")
 
@@ -145,14 +146,6 @@ def private_socket(path: Path) -> socket.socket:
     return bound
 
 
-def be_prompt() -> None:
-    """Real-time priority where permitted, and no pauses for garbage."""
-    gc.freeze()
-    gc.disable()
-    with contextlib.suppress(AttributeError, PermissionError):
-        os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(30))
-
-
 def main() -> None:
     """Run the guard until SIGTERM."""
     parser = argparse.ArgumentParser(prog="guard", description="Alone opens the CAN bus and passes on what is safe.")
@@ -171,7 +164,8 @@ def main() -> None:
     ended: list[int] = []
     signal.signal(signal.SIGTERM, lambda number, _: ended.append(number))
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C in the terminal is the supervisor's, which ends us in order
-    be_prompt()
+    no_pauses()
+    be_prompt(PRIORITY)
     process.run(lambda: bool(ended))
     process.close()
 

@@ -29,11 +29,11 @@ from navcore.messages import (
     RowObservation,
     RunState,
 )
+from navcore.promptness import be_prompt, no_pauses
 from navcore.runtime.clock import Every, Ticker
 from navcore.runtime.gnss_address import GnssAddress
 from navcore.runtime.guard_link import GuardLink
 from navcore.runtime.latest import Inbox
-from navcore.runtime.promptness import be_prompt
 from navcore.runtime.site_file import read_site
 from navcore.runtime.understudy import Taken, Understudy
 from navcore.topics import (
@@ -206,6 +206,7 @@ def main() -> None:
     signal.signal(signal.SIGTERM, lambda number, _: ended.append(number))
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     process = NavigatorProcess(Endpoints(given.bus), read_site(given.site), given.gnss, config)
+    no_pauses()
     be_prompt(PRIORITY)
     ticker = Ticker(TICK_NS)
     while not ended:

@@ -19,9 +19,9 @@ from navcore.config import RobotConfig, load_config
 from navcore.messages import CameraName, CameraRequest, CameraView
 from navcore.perception.detector import Image
 from navcore.perception.row_perception import RowPerception
+from navcore.promptness import be_prompt
 from navcore.runtime.clock import Ticker
 from navcore.runtime.pictures import Cameras
-from navcore.runtime.promptness import go_ahead
 from navcore.runtime.real_cameras import RealCameras
 from navcore.runtime.row_eye import RowEye
 from navcore.runtime.simulated_cameras import SimulatedCameras
@@ -36,8 +36,7 @@ FRAME_NS = 100_000_000
 IDLE_FRAMES = 4  # of which one is taken while no row matters: for the operator's eyes only
 REQUEST_AGE_NS = 200_000_000
 JPEG_QUALITY = 80
-# Before pages and imports: the robot steers by these pictures.
-NICE = -5
+PRIORITY = 5  # before pages and imports, for the robot steers by these pictures; after whoever ticks
 
 
 class RowWorker:
@@ -102,7 +101,7 @@ def main() -> None:
     config = load_config(given.config) if given.config else RobotConfig()
     endpoints = Endpoints(given.bus)
     worker = RowWorker(endpoints, _cameras(endpoints, given.site, given.simulation, config), config)
-    go_ahead(NICE)
+    be_prompt(PRIORITY)
     ticker = Ticker(FRAME_NS)
     while not ended:
         ticker.wait()

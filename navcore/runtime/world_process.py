@@ -19,8 +19,8 @@ import msgspec
 
 from navcore.chassis.scout_can import Frame
 from navcore.maps.site_map import SiteMap
+from navcore.promptness import be_prompt, no_pauses
 from navcore.runtime.clock import Every
-from navcore.runtime.promptness import be_prompt
 from navcore.runtime.simulation import SimulationParams
 from navcore.runtime.site_file import read_site
 from navcore.sim.scout_ecu import ScoutEcu, ScoutEcuParams
@@ -145,6 +145,7 @@ def main() -> None:
     bus = can.Bus(interface="udp_multicast", channel=given.channel, port=given.can_port, hop_limit=0, fd=False)
     endpoints, site = Endpoints(given.bus), read_site(given.site)
     process = WorldProcess(endpoints, site, PROFILES[given.vehicle], params, bus, given.gnss_port)
+    no_pauses()
     be_prompt(PRIORITY)
     while not ended:
         process.step()

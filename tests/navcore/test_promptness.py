@@ -1,0 +1,43 @@
+"""What a process may ask for without any right."""
+
+import ctypes
+import os
+import platform
+import subprocess
+import sys
+
+import pytest
+
+ASKS = """
+import os
+from navcore.promptness import be_prompt, short_slices
+def not_permitted(*_): raise PermissionError
+os.sched_setscheduler = not_permitted
+print(be_prompt(10), short_slices(), os.sched_getscheduler(0) == os.SCHED_OTHER)
+"""
+GETATTR = {"x86_64": 315, "aarch64": 275}
+
+
+def slice_of_a_thread_that_asked() -> int | None:
+    """ns, by the kernel's own word; None where it tells none."""
+    from navcore.promptness import _SchedAttr, short_slices
+
+    number = GETATTR.get(platform.machine())
+    if number is None or not short_slices():
+        return None
+    told = _SchedAttr()
+    answer = ctypes.CDLL(None).syscall(number, 0, ctypes.byref(told), ctypes.sizeof(told), 0)
+    return int(told.sched_runtime) if answer == 0 else None
+
+
+def test_a_process_that_may_not_be_real_time_stays_ordinary_and_asks_for_short_slices() -> None:
+    told = subprocess.run([sys.executable, "-c", ASKS], capture_output=True, text=True, check=True).stdout.split()
+    permitted, ordinary = told[0], told[2]
+    assert (permitted, ordinary) == ("False", "True")
+
+
+def test_the_kernel_takes_the_short_slice() -> None:
+    release = tuple(int(part) for part in os.uname().release.split(".")[:2])
+    if platform.system() != "Linux" or release < (6, 12) or platform.machine() not in GETATTR:
+        pytest.skip("this kernel knows no slices")
+    assert slice_of_a_thread_that_asked() == 100_000
