@@ -262,7 +262,8 @@ def test_odometry_knows_the_gyro_bias_that_only_driving_showed() -> None:
     yaws: list[float] = []
     for now_ns, message in world.run(30.0):
         feed(pose_filter, message)
-        yaws += [pose_filter.odom_at(now_ns).yaw] if now_ns in (START_NS + 20 * SECOND, START_NS + 30 * SECOND) else []
+        if now_ns in (START_NS + 20 * SECOND, START_NS + 30 * SECOND):
+            yaws.append(pose_filter.odom_at(now_ns).yaw)
     assert abs(math.remainder(yaws[-1] - yaws[0], math.tau)) < math.radians(1.0)
 
 
