@@ -7,6 +7,7 @@ import ctypes
 import gc
 import os
 import platform
+from pathlib import Path
 
 SLICE_NS = 100_000
 # sched_setattr(2) has no wrapper in Python; its number by machine, from Linux's unistd.h and asm-generic/unistd.h.
@@ -36,12 +37,26 @@ def no_pauses() -> None:
 
 
 def be_prompt(priority: int) -> bool:
-    """Real-time priority (1 to 99) for this thread where permitted, else short slices. True if it was permitted."""
-    with contextlib.suppress(AttributeError, PermissionError):
-        os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(priority))
+    """Real-time priority (1 to 99) for all threads so far where permitted, else short slices. True if permitted.
+
+    The threads that carry messages count: a loop on time whose messages wait for a browser is late.
+    """
+    permitted = [_go_real_time(thread, priority) for thread in _threads()]
+    return all(permitted)
+
+
+def _go_real_time(thread: int, priority: int) -> bool:
+    with contextlib.suppress(AttributeError, OSError):
+        os.sched_setscheduler(thread, os.SCHED_FIFO, os.sched_param(priority))
         return True
-    short_slices()
+    short_slices(thread)
     return False
+
+
+def _threads() -> list[int]:
+    """Of this process; 0 is the calling one, where the system tells no others."""
+    tasks = Path("/proc/self/task")
+    return [int(task.name) for task in tasks.iterdir()] if tasks.is_dir() else [0]
 
 
 def short_slices(thread: int = 0) -> bool:
