@@ -9,7 +9,6 @@ from __future__ import annotations
 import argparse
 import ctypes
 import json
-import os
 import resource
 import sys
 from dataclasses import asdict
@@ -22,6 +21,7 @@ from backend.gdal_setup import gdal, open_geotiff
 from backend.orthophoto_check import CheckParams, PictureFacts, check_bands, check_size, locate
 from backend.orthophoto_copy import Tell, build_overviews, copy
 from navcore.errors import OrthophotoError
+from navcore.promptness import stand_back
 
 CLONE_NEWUSER, CLONE_NEWNET = 0x10000000, 0x40000000  # linux/sched.h
 DAMAGED = (RasterioError, CPLE_BaseError, UnicodeDecodeError)  # what GDAL raises of a file that contradicts itself
@@ -61,7 +61,7 @@ def limit_resources(memory_bytes: int, cpu_s: int) -> None:
     resource.setrlimit(resource.RLIMIT_AS, (memory_bytes, memory_bytes))
     resource.setrlimit(resource.RLIMIT_CPU, (cpu_s, cpu_s))
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-    os.nice(10)
+    stand_back()
 
 
 def leave_network() -> None:

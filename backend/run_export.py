@@ -6,13 +6,13 @@ sentence on stdout what is wrong with a log, with exit status 3.
 
 from __future__ import annotations
 
-import os
 import sys
 from pathlib import Path
 
 from backend.disk import write_durably
 from backend.run_track import read_track
 from navcore.errors import InputError
+from navcore.promptness import stand_back
 from navcore.recording.export import RunExport
 
 UNREADABLE = 3
@@ -21,7 +21,7 @@ UNREADABLE = 3
 def main() -> int:
     """Write one export, whole or not at all."""
     log, form, target = sys.argv[1:4]
-    os.nice(10)
+    stand_back()
     try:
         text = render(Path(log), form)
     except InputError as error:

@@ -69,3 +69,10 @@ def short_slices(thread: int = 0) -> bool:
         return False
     wanted = _SchedAttr(size=ctypes.sizeof(_SchedAttr), sched_policy=os.SCHED_OTHER, sched_runtime=SLICE_NS)
     return bool(ctypes.CDLL(None).syscall(number, thread, ctypes.byref(wanted), 0) == 0)
+
+
+def stand_back() -> None:
+    """Work only while nobody else wants to: for imports and exports, which may take as long as they like."""
+    with contextlib.suppress(AttributeError, OSError):
+        os.sched_setscheduler(0, os.SCHED_IDLE, os.sched_param(0))
+    os.nice(10)

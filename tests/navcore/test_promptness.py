@@ -36,6 +36,12 @@ def test_a_process_that_may_not_be_real_time_stays_ordinary_and_asks_for_short_s
     assert (permitted, ordinary) == ("False", "True")
 
 
+def test_work_in_the_background_is_idle_by_the_kernels_own_word() -> None:
+    asks = "import os; from navcore.promptness import stand_back; stand_back(); print(os.sched_getscheduler(0))"
+    told = subprocess.run([sys.executable, "-c", asks], capture_output=True, text=True, check=True).stdout
+    assert int(told) == os.SCHED_IDLE
+
+
 def test_the_kernel_takes_the_short_slice() -> None:
     release = tuple(int(part) for part in os.uname().release.split(".")[:2])
     if platform.system() != "Linux" or release < (6, 12) or platform.machine() not in GETATTR:
