@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 import time
 from collections.abc import Callable
 from contextlib import suppress
@@ -13,7 +14,8 @@ from navcore.bench.loop_browsers import OperatorBrowsers
 from navcore.bench.loop_bus import BusWitness, MotionFrame, first_zero_after, was_moving
 from navcore.bench.loop_import import ImportLoad
 from navcore.bench.loop_log import LoopRecord, part, read_record
-from navcore.bench.loop_station import LoopStation, give_up_priority, has_priority
+from navcore.bench.loop_rights import give_up_niceness, give_up_priority, has_priority
+from navcore.bench.loop_station import LoopStation
 from navcore.errors import TransportError
 from navcore.maps.site_map import SiteMap, Warehouse
 from navcore.messages import NavStatus, RunState
@@ -35,7 +37,7 @@ class LoopParams:
     """How long, and under which load.
 
     Attributes:
-        phase_s: driven with the priorities that the system grants, and again without, s.
+        phase_s: driven with the priorities that the system grants, and again without any, s.
         drive_s: between two stops, s.
         browsers: on Drive. imports: an orthophoto is imported all the while.
     """
@@ -146,7 +148,7 @@ class LoopBench:
         permitted = all(has_priority(pid) for pid in pids.values())
         stretches = [self._drive(witness, real_time=permitted)]
         if permitted:
-            give_up_priority(pids)
+            give_up_priority(pids.values())
             stretches.append(self._drive(witness, real_time=False))
         return stretches
 
@@ -155,6 +157,8 @@ class LoopBench:
         stops: list[float] = []
         missed = 0
         while time.monotonic_ns() - from_ns < self._params.phase_s * 1e9:
+            if not real_time:
+                give_up_niceness(os.getpid())
             self._pause(self._params.drive_s)
             took = self._stop(witness) if self._moves(witness) else None
             if took is not None:

@@ -9,7 +9,6 @@ import subprocess
 import sys
 import tempfile
 import time
-from contextlib import suppress
 from http.cookiejar import CookieJar
 from pathlib import Path
 from typing import Any, Self
@@ -17,7 +16,6 @@ from urllib.error import HTTPError
 from urllib.request import HTTPCookieProcessor, Request, build_opener
 
 from navcore.errors import TransportError
-from navcore.promptness import short_slices
 from navcore.transport.endpoints import Endpoints
 from navcore.transport.request import Requester
 from navcore.transport.supervision import SupervisorReply, SupervisorRequest, SupervisorRequestKind
@@ -112,20 +110,3 @@ class LoopStation:
 
     def __exit__(self, *_: object) -> None:
         self.close()
-
-
-def give_up_priority(pids: dict[str, int]) -> None:
-    """Take SCHED_FIFO from every thread of these processes: as on a machine that does not permit it."""
-    for pid in pids.values():
-        for task in Path(f"/proc/{pid}/task").iterdir():
-            with suppress(OSError):
-                os.sched_setscheduler(int(task.name), os.SCHED_OTHER, os.sched_param(0))
-                short_slices(int(task.name))
-
-
-def has_priority(pid: int) -> bool:
-    """Whether its main thread runs under SCHED_FIFO."""
-    try:
-        return os.sched_getscheduler(pid) == os.SCHED_FIFO
-    except OSError:
-        return False
