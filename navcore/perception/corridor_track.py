@@ -25,7 +25,8 @@ class CorridorTrackerParams:
         fit: of one picture.
         width, width_std: usual corridor width where none is told, m; `told_width_std` where one is.
         offset_std, heading_std_deg: prior of a robot somewhere in a corridor, without a `RowPrior`.
-        pitch_std_deg: 1-sigma of the camera's pitch about its mount: +-2 deg of terrain.
+        pitch_std_deg: 1-sigma of the camera's pitch about its mount: +-2 deg of terrain; `told_pitch_std_deg` about
+            what the IMU tells of it.
         drift_per_m, turn_drift_per_m: how fast offset (m) and heading (rad) become uncertain per square root of a
             metre driven; `turn_slip` is the share of a turn by which odometry may be wrong.
         min_objects: fewer do not start a track.
@@ -50,6 +51,7 @@ class CorridorTrackerParams:
     offset_std: float = 0.7
     heading_std_deg: float = 12.0
     pitch_std_deg: float = 1.3
+    told_pitch_std_deg: float = 0.7
     drift_per_m: float = 0.04
     turn_drift_per_m: float = 0.02
     turn_slip: float = 0.2
@@ -91,8 +93,16 @@ def expected(prior: RowPrior | None, p: CorridorTrackerParams) -> tuple[Floats, 
     offset_std = prior.std if prior else p.offset_std
     heading_std = prior.heading_std if prior else math.radians(p.heading_std_deg)
     width = told_width(prior, p)
-    stds = np.array((offset_std, heading_std, width.std, math.radians(p.pitch_std_deg)))
-    return np.array((offset, heading, width.mean, 0.0)), np.diag(stds**2)
+    pitch, pitch_std = told_pitch(prior, p)
+    stds = np.array((offset_std, heading_std, width.std, pitch_std))
+    return np.array((offset, heading, width.mean, pitch)), np.diag(stds**2)
+
+
+def told_pitch(prior: RowPrior | None, p: CorridorTrackerParams) -> tuple[float, float]:
+    """As the IMU has it, and its 1-sigma, rad; else that of the ground's bumps."""
+    if prior is None or prior.pitch is None:
+        return 0.0, math.radians(p.pitch_std_deg)
+    return prior.pitch, math.radians(p.told_pitch_std_deg)
 
 
 def told_width(prior: RowPrior | None, p: CorridorTrackerParams) -> Width:
@@ -101,7 +111,7 @@ def told_width(prior: RowPrior | None, p: CorridorTrackerParams) -> Width:
     return Width(p.width, p.width_std) if told is None else Width(told, p.told_width_std)
 
 
-def moved(track: Track, motion: SE2, p: CorridorTrackerParams) -> Track:
+def moved(track: Track, motion: SE2, prior: RowPrior | None, p: CorridorTrackerParams) -> Track:
     """The track seen from the new driving frame, less certain by what was driven and turned.
 
     The pitch is that of the ground under the robot: it is mostly forgotten from one picture to the next.
@@ -113,9 +123,10 @@ def moved(track: Track, motion: SE2, p: CorridorTrackerParams) -> Track:
     J[0, 1] = math.cos(heading) * motion.x + math.sin(heading) * motion.y
     covariance = J @ track.covariance @ J.T
     turn_var = p.turn_drift_per_m**2 * distance + (p.turn_slip * motion.yaw) ** 2
-    pitch_var = (1.0 - 0.7**2) * math.radians(p.pitch_std_deg) ** 2
+    told, told_std = told_pitch(prior, p)
+    pitch_var = (1.0 - 0.7**2) * told_std**2
     covariance += np.diag((p.drift_per_m**2 * distance, turn_var, 0.02**2 * distance, pitch_var))
-    state = np.array((across, wrap(heading - motion.yaw), width, 0.7 * pitch))
+    state = np.array((across, wrap(heading - motion.yaw), width, told + 0.7 * (pitch - told)))
     return Track(state=state, covariance=covariance, unseen=track.unseen + distance, doubts=track.doubts)
 
 

@@ -52,7 +52,7 @@ class CorridorTracker:
         """The track in the frame of this picture, None if there is none or it follows another row."""
         if self._track is None or cue.motion is None:
             return None
-        track = moved(self._track, cue.motion, self._params)
+        track = moved(self._track, cue.motion, cue.prior, self._params)
         return None if other_row(track, cue.prior, self._params) else track
 
     def _follow(self, track: Track, corners: CornerPoints, told: Width) -> RowLines:

@@ -25,6 +25,7 @@ class RowPrior:
         std: 1-sigma of `offset`, m, > 0.
         width: corridor width, m; None if not known.
         heading_std: 1-sigma of `heading`, rad.
+        pitch: how much further down than its mount says the camera looks, rad; None if nobody knows.
     """
 
     offset: float
@@ -32,6 +33,7 @@ class RowPrior:
     std: float
     width: float | None = None
     heading_std: float = 0.09
+    pitch: float | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -196,6 +197,20 @@ def test_the_row_end_is_told_before_it_is_reached() -> None:
     assert told_at[0][0].x < 20.0 - 5.0  # m: five metres ahead
     for pose, distance in told_at:
         assert distance == pytest.approx(20.0 - pose.x, abs=0.5)  # m
+
+
+@pytest.mark.parametrize("nods_deg", [-2.0, 2.0])
+def test_the_row_end_is_told_by_a_camera_that_nods_if_the_imu_tells_of_it(nods_deg: float) -> None:
+    """The last plants before the end are too few to tell how the camera looks down; 2 deg are 0.6 m, 4 m ahead."""
+    nods = math.radians(nods_deg)
+    tilted, told = replace(FRONT, pitch=FRONT.pitch + nods), Told()
+    perception = RowPerception(FRONT, told, RowPerceptionParams())
+    prior = RowPrior(offset=0.0, heading=0.0, std=0.15, width=3.0, pitch=nods)
+    for i in range(10):
+        told.objects = boxes_at(tilted, corridor_feet(SE2(0.2 * i, 0.0, 0.0), start=1.0, end=5.5, lines=1))
+        motion = SE2(0.2, 0.0, 0.0) if i else None
+        row = perception.process(picture(FRONT), i, CameraName.FRONT, prior=prior, motion=motion).row
+    assert row.end_distance == pytest.approx(5.5 - 1.8, abs=0.12)  # m
 
 
 def test_in_the_middle_of_a_row_there_is_no_end() -> None:
