@@ -25,6 +25,8 @@ class PathAnchorParams:
         slide_along: how fast it may move along the driving direction, m/s, > 0.
         patience: no further away from the robot than this does the path slide, m: it waits until the robot follows.
         turn: how fast it may turn, rad/s, > 0.
+        slide_share, along_share, turn_share: the same per metre driven, m, m and rad: a robot that creeps round a
+            bend must not chase a path that runs off to the side.
         growth_lateral: 1-sigma of the lateral drift of odometry, m per square root of m driven, > 0.
         growth_heading: 1-sigma of the heading drift, rad per square root of m driven, > 0.
         map_lateral: 1-sigma of where a drawn row lies, m (survey by orthophoto: 0.3 to 0.8 m).
@@ -40,6 +42,9 @@ class PathAnchorParams:
     slide_along: float = 0.3
     patience: float = 0.20
     turn: float = 0.10
+    slide_share: float = 0.3
+    along_share: float = 0.5
+    turn_share: float = 0.25
     growth_lateral: float = 0.02
     growth_heading: float = 0.005
     map_lateral: float = 0.45
@@ -86,7 +91,7 @@ class PathAnchor:
         """Forget how well the drawn row is known: the next row is told by the map alone."""
         p = self.params
         self.var_lateral, self.var_heading, self.var_along = p.map_lateral**2, p.map_heading**2, p.map_along**2
-        self._driven = self._held_back = 0.0
+        self._driven = self._held_back = self._just_driven = 0.0
 
     def next_row(self) -> None:
         """Another row, reached from the last one: the map knows their distance better than their place."""
@@ -99,6 +104,7 @@ class PathAnchor:
         """Let the uncertainty grow over a driven distance, m."""
         p, d = self.params, abs(distance)
         self._driven += d
+        self._just_driven = d
         self.var_lateral += p.growth_lateral**2 * d
         self.var_heading += p.growth_heading**2 * d
         self.var_along += p.growth_along**2 * d
@@ -158,17 +164,19 @@ class PathAnchor:
         self.T_map_odom = T_map_drive @ T_odom_drive.inverse()
 
     def slide(self, T_odom_drive: SE2, dt: float, lateral_error: float = 0.0) -> SE2:
-        """Move the followed tie towards the wanted one for `dt` seconds; the followed pose of the driving frame.
+        """Move the followed tie towards the wanted one, `dt` seconds and one `drive` after the last time.
 
-        `lateral_error` is the robot's distance from its path now, positive on its left.
+        `lateral_error` is the robot's distance from its path now, positive on its left. Returns the followed pose of
+        the driving frame.
         """
         at = self.followed @ T_odom_drive
         off = at.inverse() @ self.T_map_odom @ T_odom_drive
-        p = self.params
-        aside = p.slide * self._patience(off.y, lateral_error) * dt
+        p, d = self.params, self._just_driven
+        aside = self._patience(off.y, lateral_error) * min(p.slide * dt, p.slide_share * d)
         # In a bend what slides along the path becomes an error to the side.
-        ahead = p.slide_along * max(1.0 - abs(lateral_error) / p.patience, 0.0) * dt
-        step = SE2(_within(off.x, ahead), _within(off.y, aside), _within(off.yaw, p.turn * dt))
+        ahead = max(1.0 - abs(lateral_error) / p.patience, 0.0) * min(p.slide_along * dt, p.along_share * d)
+        turn = min(p.turn * dt, p.turn_share * d)
+        step = SE2(_within(off.x, ahead), _within(off.y, aside), _within(off.yaw, turn))
         pose = at @ step
         self.followed = pose @ T_odom_drive.inverse()
         return pose

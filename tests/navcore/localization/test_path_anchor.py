@@ -76,23 +76,25 @@ def test_what_stands_beyond_the_row_cannot_hold_the_robot_for_ever() -> None:
     assert ROW.coordinates(anchor.T_map_odom @ odom).x == pytest.approx(x - 6.0)  # m: 12 % of 50
 
 
-@given(st.floats(-2, 2), st.floats(-2, 2), st.floats(-1, 1), st.floats(0.005, 0.1))
-def test_followed_pose_never_jumps(dx: float, dy: float, turn: float, dt: float) -> None:
+@given(st.floats(-2, 2), st.floats(-2, 2), st.floats(-1, 1), st.floats(0.005, 0.1), st.floats(0.0, 0.1))
+def test_followed_pose_never_jumps(dx: float, dy: float, turn: float, dt: float, driven: float) -> None:
     anchor, odom = anchored(), SE2(8.0, 3.0, 0.25)
     before = anchor.followed @ odom
     anchor.follow(SE2(2.0 + dx, 1.0 + dy, 0.1 + turn))
+    anchor.drive(driven)
     after = anchor.slide(odom, dt)
     params = anchor.params
     moved = before.inverse() @ after
-    assert abs(moved.y) <= params.slide * dt + 1e-9
-    assert abs(moved.x) <= params.slide_along * dt + 1e-9
-    assert abs(after.yaw - before.yaw) <= params.turn * dt + 1e-9
+    assert abs(moved.y) <= min(params.slide * dt, params.slide_share * driven) + 1e-9
+    assert abs(moved.x) <= min(params.slide_along * dt, params.along_share * driven) + 1e-9
+    assert abs(after.yaw - before.yaw) <= min(params.turn * dt, params.turn_share * driven) + 1e-9
 
 
 def test_followed_pose_arrives() -> None:
     anchor, odom = anchored(), SE2(8.0, 3.0, 0.25)
     anchor.follow(SE2(2.5, 1.0, 0.15))
     for _ in range(500):
+        anchor.drive(0.01)
         pose = anchor.slide(odom, 0.02)
     wanted = anchor.T_map_odom @ odom
     assert (pose.x, pose.y, pose.yaw) == pytest.approx((wanted.x, wanted.y, wanted.yaw), abs=1e-6)
@@ -119,5 +121,6 @@ def test_the_path_waits_for_a_robot_that_does_not_follow() -> None:
     anchor.follow(wanted @ odom.inverse())
     for _ in range(500):
         lateral = (before.inverse() @ anchor.followed @ odom).y
+        anchor.drive(0.01)
         anchor.slide(odom, 0.02, lateral)
     assert (before.inverse() @ anchor.followed @ odom).y <= anchor.params.patience  # m
