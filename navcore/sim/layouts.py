@@ -40,8 +40,8 @@ def tuning_layout(index: int, params: LayoutParams | None = None) -> SiteMap:
 
 
 def scoring_layout(index: int, params: LayoutParams | None = None) -> SiteMap:
-    """A farm to score on, never tuned on: odd seeds."""
-    return _layout(f"Scoring farm {index}", 2 * index + 1, params or LayoutParams())
+    """A farm to score on, never tuned on: odd seeds. They move on when somebody has looked into one to mend something."""
+    return _layout(f"Scoring farm {index}", 2 * index + 1001, params or LayoutParams())
 
 
 def _layout(name: str, seed: int, params: LayoutParams) -> SiteMap:
