@@ -120,8 +120,9 @@ def _missions(params: CaseParams) -> tuple[MissionCase, ...]:
                     continue
                 cases.append(
                     MissionCase(
-                        kind=CaseKind.MISSION, farms=params.source, farm=farm, seed=MISSION_SEED + number, season=season,
-                        light=light, row_exit=EXITS[number % 2], speed=SPEEDS[(number // 2) % 3], eye=params.eye,
+                        kind=CaseKind.MISSION, farms=params.source, farm=farm, seed=MISSION_SEED + number,
+                        season=season, light=light, row_exit=EXITS[number % 2], speed=SPEEDS[(number // 2) % 3],
+                        eye=params.eye,
                     )
                 )  # fmt: skip
     return tuple(cases)
