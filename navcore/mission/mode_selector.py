@@ -21,7 +21,8 @@ class ModeSelectorParams:
         end_zone: distance to the row's end at which the robot drives on by odometry, m.
         seen_end_zone: the same where the camera has seen that end, m.
         again: a row seen to go on for more than this takes the robot back into it, m (hysteresis to `end_zone`).
-        clear: distance past the row's end at which GNSS may take over, m.
+        clear: distance past the row's end at which the row is left and GNSS may take over, m.
+        entry_zone: distance before the entrance from which the robot steers by the row that it has turned to, m.
         gnss_std: position 1-sigma at which GNSS may take over, m.
         gnss_streak: good epochs in a row before it does.
     """
@@ -32,6 +33,7 @@ class ModeSelectorParams:
     seen_end_zone: float = 4.0
     again: float = 5.0
     clear: float = 1.0
+    entry_zone: float = 3.0
     gnss_std: float = 0.12
     gnss_streak: int = 5
 
@@ -46,6 +48,7 @@ class ModeFacts:
         row_streak: consecutive observations that are valid and agree with the expected row.
         row_age_s: age of the last such observation, None if there was none.
         row_follows: the headland leads to another row: its place is known best from the row that is left.
+        turn_follows: the straight way out of the row goes over into a turn on the headland.
         looks: the camera shows pictures, whether there is a row in them or not.
         seen_end: distance ahead at which the camera sees the row end, None if it goes on.
         gnss_std: 1-sigma of the pose filter's position, m, None without a pose.
@@ -56,6 +59,7 @@ class ModeFacts:
     to_start: float | None
     to_end: float | None
     row_follows: bool
+    turn_follows: bool
     row_streak: int
     row_age_s: float | None
     looks: bool
@@ -80,6 +84,10 @@ def _row_trusted(f: ModeFacts, p: ModeSelectorParams) -> bool:
 
 def _near_row(f: ModeFacts) -> bool:
     return f.segment in (SegmentKind.ENTRY, SegmentKind.ROW) and f.to_end is not None and f.to_end > 0.0
+
+
+def _in_entry_zone(f: ModeFacts, p: ModeSelectorParams) -> bool:
+    return f.to_start is not None and f.to_start <= p.entry_zone
 
 
 def _inside(f: ModeFacts) -> bool:
@@ -112,9 +120,17 @@ def _gnss_good(f: ModeFacts, p: ModeSelectorParams) -> bool:
     return f.gnss_std is not None and f.gnss_std <= p.gnss_std and f.gnss_streak >= p.gnss_streak
 
 
+def _left(f: ModeFacts, p: ModeSelectorParams) -> bool:
+    return f.to_end is None or f.to_end <= -p.clear
+
+
 def _clear(f: ModeFacts, p: ModeSelectorParams) -> bool:
-    left = f.to_end is None or f.to_end <= -p.clear
-    return left and not f.row_follows and f.segment in (SegmentKind.EXIT, SegmentKind.ROAD)
+    return _left(f, p) and not f.row_follows and f.segment in (SegmentKind.EXIT, SegmentKind.ROAD)
+
+
+def _turns(f: ModeFacts, p: ModeSelectorParams) -> bool:
+    """On the straight before a turn already: sources change where it is driven straight on."""
+    return f.segment is SegmentKind.HEADLAND or (f.turn_follows and _left(f, p))
 
 
 def _metres(value: float | None) -> str:
@@ -129,9 +145,15 @@ SWITCHES: tuple[Switch, ...] = (
         lambda f: f"row seen in {f.row_streak} pictures, {_metres(f.to_end)} to its end",
     ),
     Switch(
-        frozenset({NavMode.GNSS_PATH, NavMode.HEADLAND}),
+        frozenset({NavMode.GNSS_PATH}),
         NavMode.ROW_ENTRY,
         lambda f, p: _near_row(f) and _row_trusted(f, p),
+        lambda f: f"row ahead seen in {f.row_streak} pictures, entrance in {_metres(f.to_start)}",
+    ),
+    Switch(
+        frozenset({NavMode.HEADLAND}),
+        NavMode.ROW_ENTRY,
+        lambda f, p: _near_row(f) and _row_trusted(f, p) and _in_entry_zone(f, p),
         lambda f: f"row ahead seen in {f.row_streak} pictures, entrance in {_metres(f.to_start)}",
     ),
     Switch(
@@ -159,16 +181,16 @@ SWITCHES: tuple[Switch, ...] = (
         lambda f: f"the row goes on, {_metres(f.to_end)} to its end",
     ),
     Switch(
-        frozenset({NavMode.ROW_END}),
-        NavMode.HEADLAND,
-        lambda f, _: f.segment is SegmentKind.HEADLAND,
-        lambda f: f"row left, turning over the headland, position known to {_metres(f.gnss_std)}",
-    ),
-    Switch(
         frozenset({NavMode.ROW_END, NavMode.HEADLAND}),
         NavMode.GNSS_PATH,
         lambda f, p: _clear(f, p) and _gnss_good(f, p),
         lambda f: f"row left, GNSS position known to {_metres(f.gnss_std)}",
+    ),
+    Switch(
+        frozenset({NavMode.ROW_END}),
+        NavMode.HEADLAND,
+        _turns,
+        lambda f: f"row left, turning over the headland, position known to {_metres(f.gnss_std)}",
     ),
 )
 

@@ -245,6 +245,7 @@ class Pilot:
             to_start=-along if along is not None else None,
             to_end=row_length(segment) - along if segment is not None and along is not None else None,
             row_follows=self.leg.row_follows(self.place.s),
+            turn_follows=self.leg.turn_follows(self.place.s),
             row_streak=self.row.streak,
             row_age_s=self.row.age_s(at.now_ns),
             looks=self.row.looks(at.now_ns),

@@ -70,6 +70,12 @@ class Leg:
         on_the_way = (SegmentKind.EXIT, SegmentKind.HEADLAND)
         return next((x.kind for x in ahead if x.kind not in on_the_way), None) is SegmentKind.ENTRY
 
+    def turn_follows(self, s: float) -> bool:
+        """Whether the way out of a row, at `s`, goes over into a turn on the headland."""
+        i = self.segment_index(s)
+        kinds = [x.kind for x in self.segments[i : i + 2]]
+        return kinds == [SegmentKind.EXIT, SegmentKind.HEADLAND]
+
     def speed(self, s: float) -> float:
         """Wanted speed at arc length `s`, m/s."""
         return float(np.interp(s, self.line.s, self._speeds))

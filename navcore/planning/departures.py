@@ -14,7 +14,7 @@ from navcore.messages import SegmentKind
 from navcore.planning.connection import Option
 from navcore.planning.driven_row import DrivenRow
 from navcore.planning.free_space import FreeSpace
-from navcore.planning.params import PlanningParams
+from navcore.planning.params import PlanningParams, straight_cost
 
 Floats = NDArray[np.float64]
 _HALF_TURN = SE2(0.0, 0.0, math.pi)
@@ -61,9 +61,9 @@ def through_the_end(row: DrivenRow, params: PlanningParams) -> list[Departure]:
     """Straight out at the far end, a shorter or longer way."""
     inside = max(row.length - params.exit_inside, row.length / 2)
     departures = []
-    for out in (params.exit_length, params.exit_length + 1.0, params.exit_length + 2.5):
+    for out in (params.exit_length + extra for extra in (0.0, 1.0, 2.0, 3.5)):
         part = Part(SegmentKind.EXIT, row.line(inside, row.length + out, params.step), row=row)
-        departures.append(Departure((part,), row.pose(row.length + out), out))
+        departures.append(Departure((part,), row.pose(row.length + out), straight_cost(out, params.turn_exit)))
     return departures
 
 
@@ -75,11 +75,12 @@ def backwards_out(row: DrivenRow, space: FreeSpace, params: PlanningParams) -> l
     back = row.reversed()
     inside = max(back.length - params.exit_inside, back.length / 2)
     every, free = [], []
-    for out in (params.exit_length, params.exit_length + 1.5, params.exit_length + 3.0):
+    for out in (params.exit_length, params.exit_length + 2.0, params.exit_length + 3.0):
         part = Part(SegmentKind.EXIT, back.line(inside, back.length + out, params.step), reverse=True, row=back)
         for poses, pose, cost in _swings(row.pose(-out), params):
             parts = (part, Part(SegmentKind.HEADLAND, poses, reverse=True)) if len(poses) > 1 else (part,)
-            departure = Departure(parts, pose, out + cost + _CUSP)
+            straight = straight_cost(out, params.turn_exit) if len(poses) > 1 else out
+            departure = Departure(parts, pose, straight + cost + _CUSP)
             every.append(departure)
             if space.blocked(poses) is None:
                 free.append(departure)

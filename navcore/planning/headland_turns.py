@@ -12,7 +12,7 @@ from navcore.geometry.se2 import SE2
 from navcore.planning.connection import Blocked, Option, connect
 from navcore.planning.driven_row import DrivenRow
 from navcore.planning.dubins import dubins_paths
-from navcore.planning.params import PlanningParams
+from navcore.planning.params import PlanningParams, straight_cost
 
 Floats = NDArray[np.float64]
 
@@ -50,11 +50,10 @@ def headland_turn(left: DrivenRow, entered: DrivenRow, blocked: Blocked, params:
 
 
 def _sweep(left: DrivenRow, entered: DrivenRow, blocked: Blocked, params: PlanningParams) -> Turn:
-    starts = [
-        Option(left.pose(left.length + d), d, d) for d in (params.exit_length + extra for extra in (0.0, 1.0, 2.5))
-    ]
-    entries = (d for d in (4.0, 3.0, 2.0, params.least_entry) if d >= params.least_entry)
-    goals = [Option(entered.pose(-d), 3.0 * max(3.0 - d, 0.0) + d, d) for d in entries]
+    exits = (params.exit_length + extra for extra in (0.0, 1.0, 2.0, 3.5))
+    starts = [Option(left.pose(left.length + d), straight_cost(d, params.turn_exit), d) for d in exits]
+    entries = (d for d in (5.0, 4.0, 3.0, 2.0, params.least_entry) if d >= params.least_entry)
+    goals = [Option(entered.pose(-d), straight_cost(d, params.turn_entry), d) for d in entries]
     found = connect(starts, goals, params.radii, blocked, longest=25.0)
     parts = ((found.path.poses(params.step), False),)
     return Turn(found.start.key, found.goal.key, parts, found.obstacle, found.place)

@@ -24,6 +24,9 @@ class PlanningParams:
         entry_inside: how far the entry reaches into the row.
         exit_inside: how far before the row's end the exit begins.
         exit_length: straight run past the row's end, more where more is free.
+        turn_exit, turn_entry: straight run past the end of a row and before the next one that a turn over the
+            headland leaves where there is room: sources change while it is driven, and a row's end that is seen some
+            decimetres off, which in a turn puts the robot beside its path, does not there.
         reverse_stop: distance from the far end at which the robot stops to drive back out.
         zone_margin: free between swept body and zone edges.
         plant_margin: free between swept body and plant lines, whose half thickness is `plant_radius`.
@@ -44,6 +47,8 @@ class PlanningParams:
     entry_inside: float = 3.0
     exit_inside: float = 3.0
     exit_length: float = 1.5
+    turn_exit: float = 3.5
+    turn_entry: float = 5.0
     reverse_stop: float = 1.0
     zone_margin: float = 0.30
     plant_margin: float = 0.20
@@ -66,3 +71,8 @@ class PlanningParams:
         k = np.maximum(np.abs(curvature), 1e-6)
         bounds = np.minimum(self.turn_rate(vehicle) / k, np.sqrt(self.max_lateral_acceleration / k))
         return np.maximum(bounds, self.slowest)
+
+
+def straight_cost(length: float, wanted: float) -> float:
+    """Of a straight run, m of way: what is missing of the wanted one counts threefold."""
+    return length + 3.0 * max(wanted - length, 0.0)

@@ -10,7 +10,7 @@ from navcore.mission.mode_selector import ModeFacts, ModeSelectorParams, select_
 
 PARAMS = ModeSelectorParams()
 OPEN_ROAD = ModeFacts(
-    segment=SegmentKind.ROAD, to_start=None, to_end=None, row_follows=False, row_streak=0, row_age_s=None,
+    segment=SegmentKind.ROAD, to_start=None, to_end=None, row_follows=False, turn_follows=False, row_streak=0, row_age_s=None,
     looks=True, seen_end=None, gnss_std=0.02, gnss_streak=100,
 )  # fmt: skip
 BEFORE_ROW = replace(OPEN_ROAD, segment=SegmentKind.ENTRY, to_start=3.0, to_end=63.0, row_streak=5, row_age_s=0.1)
@@ -85,6 +85,18 @@ def test_a_robot_stopped_before_the_last_plants_goes_on_to_the_end_unless_its_ca
 def test_on_the_way_to_the_next_row_gnss_does_not_move_the_path_off_the_row_just_left() -> None:
     assert mode_after(NavMode.ROW_END, LEFT_ROW) is NavMode.GNSS_PATH
     assert mode_after(NavMode.ROW_END, replace(LEFT_ROW, row_follows=True)) is NavMode.ROW_END
+
+
+def test_the_row_is_left_on_the_straight_before_the_turn_and_not_in_it() -> None:
+    no_fix = replace(LEFT_ROW, gnss_streak=0, turn_follows=True)
+    assert mode_after(NavMode.ROW_END, no_fix) is NavMode.HEADLAND
+    assert mode_after(NavMode.ROW_END, replace(no_fix, to_end=-0.5)) is NavMode.ROW_END
+    assert mode_after(NavMode.ROW_END, replace(no_fix, turn_follows=False)) is NavMode.ROW_END
+
+
+def test_out_of_a_turn_the_camera_takes_over_when_the_robot_has_come_straight() -> None:
+    assert mode_after(NavMode.HEADLAND, replace(BEFORE_ROW, to_start=2.9)) is NavMode.ROW_ENTRY
+    assert mode_after(NavMode.HEADLAND, replace(BEFORE_ROW, to_start=4.5)) is NavMode.HEADLAND
 
 
 def test_reversing_out_begins_on_the_rear_camera() -> None:

@@ -136,6 +136,20 @@ def test_the_next_row_is_entered_from_the_side_the_robot_is_on() -> None:
     assert max(y for _, y in turns[0].points) < 66.0 - PAPER_A.width / 2
 
 
+@pytest.mark.parametrize(("headland", "least_exit", "entry"), [(12.0, 3.5, 5.0), (5.5, 1.5, 3.0)])
+def test_a_turn_is_straight_where_sources_change_as_far_as_the_headland_has_room(
+    headland: float, least_exit: float, entry: float
+) -> None:
+    site = farm(headland=headland)
+    outbound = mission_for_row(site, "R1", RowExit.REVERSE).outbound
+    visits = (RowVisit(row_id="R1", exit=RowExit.NEXT_ROW), RowVisit(row_id="R2", exit=RowExit.THROUGH))
+    plan = plan_mission(site, Mission(id="m", name="m", outbound=outbound, visits=visits, inbound=()), PAPER_A)
+    out = next(s for s in plan.segments if s.kind is K.EXIT)
+    into = [s for s in plan.segments if s.kind is K.ENTRY][1]
+    assert out.points[-1][1] >= 60.0 + least_exit - 1e-6
+    assert into.points[0][1] == pytest.approx(60.0 + entry)
+
+
 def test_a_shallow_headland_is_turned_on_in_three_points() -> None:
     site = farm(headland=3.4, width=1.5)
     outbound = mission_for_row(site, "R1", RowExit.REVERSE).outbound
