@@ -10,8 +10,8 @@ from navcore.mission.mode_selector import ModeFacts, ModeSelectorParams, select_
 
 PARAMS = ModeSelectorParams()
 OPEN_ROAD = ModeFacts(
-    segment=SegmentKind.ROAD, to_start=None, to_end=None, row_follows=False, turn_follows=False, row_streak=0, row_age_s=None,
-    looks=True, seen_end=None, gnss_std=0.02, gnss_streak=100,
+    segment=SegmentKind.ROAD, to_start=None, to_end=None, row_follows=False, turn_follows=False, row_streak=0,
+    row_age_s=None, looks=True, seen_end=None, gnss_std=0.02, gnss_streak=100,
 )  # fmt: skip
 BEFORE_ROW = replace(OPEN_ROAD, segment=SegmentKind.ENTRY, to_start=3.0, to_end=63.0, row_streak=5, row_age_s=0.1)
 IN_ROW = replace(BEFORE_ROW, segment=SegmentKind.ROW, to_start=-30.0, to_end=30.0, gnss_std=1.5, gnss_streak=0)
