@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -55,6 +56,12 @@ class Belief:
     agree_ns: int | None = None
     heading_doubt_ns: int | None = None
     row: tuple[float, float, float] | None = None
+
+    @property
+    def position_std(self) -> float:
+        """1-sigma along the worst direction, m: root of the larger eigenvalue of the position's covariance."""
+        a, d, c = float(self.cov[X, X]), float(self.cov[Y, Y]), float(self.cov[X, Y])
+        return math.sqrt(0.5 * (a + d) + math.hypot(0.5 * (a - d), c))
 
     def copy(self) -> Belief:
         """An independent belief. The constructor is much faster than copy.copy and dataclasses.replace."""

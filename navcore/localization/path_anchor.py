@@ -64,6 +64,11 @@ class RowLine:
     y: float
     heading: float
 
+    @staticmethod
+    def between(start: tuple[float, float], end: tuple[float, float]) -> RowLine:
+        """From the end at which the row is entered to the other one."""
+        return RowLine(*start, math.atan2(end[1] - start[1], end[0] - start[0]))
+
     def coordinates(self, pose: SE2) -> SE2:
         """Pose in the row's own frame: x along, y to the left of the line, yaw from its direction."""
         return SE2(self.x, self.y, self.heading).inverse() @ pose

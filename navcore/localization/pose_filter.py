@@ -7,14 +7,11 @@ from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
-import numpy as np
-
 from navcore.chassis.protocol import ChassisState
 from navcore.geometry.geodesy import EnuFrame
 from navcore.geometry.se2 import SE2
 from navcore.localization.belief import GYRO_BIAS, SPEED_SCALE, YAW, Belief, X, Y
 from navcore.localization.belief_history import BeliefHistory, Event
-from navcore.localization.correction import Innovation
 from navcore.localization.dead_reckoning import DeadReckoning, DeadReckoningParams
 from navcore.localization.filter_start import FilterStart, FilterStartParams
 from navcore.localization.filter_status import FilterStatus
@@ -22,6 +19,7 @@ from navcore.localization.gnss_correction import GnssCorrection, GnssCorrectionP
 from navcore.localization.gnss_noise import GnssNoise, GnssNoiseParams
 from navcore.localization.motion_model import MotionModel, MotionParams
 from navcore.localization.row_correction import RowCorrection, RowCorrectionParams
+from navcore.localization.standstill import learn_bias
 from navcore.localization.verdict import Evidence, Verdict
 from navcore.messages import FixQuality, GnssFix, ImuSample, PoseEstimate, RowObservation
 
@@ -103,7 +101,7 @@ class PoseFilter:
             return []
 
         def apply(b: Belief) -> list[Verdict]:
-            self._learn_bias(b, sample.wz)
+            learn_bias(b, sample.wz, self._motion, self._params.motion.gyro_noise)
             return hold(b)
 
         self._history.add(Event(sample.stamp_ns, apply, hold))
@@ -176,7 +174,7 @@ class PoseFilter:
             fix_age_s=(now_ns - belief.fix_ns) * NS if belief else None,
             heading_age_s=self._age(now_ns, Evidence.HEADING, Evidence.COURSE),
             row_age_s=self._age(now_ns, Evidence.ROW),
-            position_std=_worst_std(belief) if belief else None,
+            position_std=belief.position_std if belief else None,
             yaw_std=math.sqrt(belief.cov[YAW, YAW]) if belief else None,
             dead_reckoned=belief.distance if belief else 0.0,
             position_doubt_s=_since(now_ns, belief.doubt_ns if belief else None),
@@ -204,16 +202,6 @@ class PoseFilter:
         height = self._frame.height_m if fix.height_m is None else fix.height_m
         east, north, _ = self._frame.to_enu(fix.lat_deg, fix.lon_deg, height)
         return float(east), float(north)
-
-    def _learn_bias(self, b: Belief, rate: float) -> None:
-        """Standing still, the gyro shows nothing but its bias."""
-        if b.gyro_ns is None or not self._motion.is_still(b, b.stamp_ns):
-            return
-        dt = max((b.stamp_ns - b.gyro_ns) * NS, 1e-3)
-        H = np.zeros((1, len(b.mean)))
-        H[0, GYRO_BIAS] = 1.0
-        R = np.array(((self._params.motion.gyro_noise**2 / dt,),))
-        Innovation(b, H, np.array((rate - b.mean[GYRO_BIAS],)), R).apply()
 
     def _is_sound(self, evidence: Evidence, stamp_ns: int, numbers: Iterable[float | None]) -> bool:
         reason = self._unsound(evidence, stamp_ns, numbers)
@@ -256,9 +244,3 @@ class PoseFilter:
 
 def _since(now_ns: int, since_ns: int | None) -> float:
     return 0.0 if since_ns is None else max(0.0, (now_ns - since_ns) * NS)
-
-
-def _worst_std(b: Belief) -> float:
-    """Square root of the larger eigenvalue of the position's covariance."""
-    a, d, c = float(b.cov[X, X]), float(b.cov[Y, Y]), float(b.cov[X, Y])
-    return math.sqrt(0.5 * (a + d) + math.hypot(0.5 * (a - d), c))

@@ -15,7 +15,6 @@ from navcore.messages import (
     NavMode,
     PathSegment,
     RowObservation,
-    SegmentKind,
 )
 from navcore.mission.evidence import RowEvidence, RowEvidenceParams
 from navcore.mission.mode_selector import ModeFacts, ModeSelectorParams, first_mode, select_mode
@@ -25,7 +24,6 @@ from navcore.mission.route import Leg, Place, Route, row_length
 ON_CAMERA = frozenset({NavMode.ROW_ENTRY, NavMode.ROW})
 ALONG_ROW = frozenset({NavMode.ROW, NavMode.ROW_END})
 CARRIED = frozenset({NavMode.ROW_END, NavMode.HEADLAND})
-ROW_SEGMENTS = frozenset({SegmentKind.ENTRY, SegmentKind.ROW, SegmentKind.EXIT})
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -216,20 +214,14 @@ class Pilot:
 
     def row_segment(self) -> PathSegment | None:
         """The segment whose row matters here: this one's, or the next entry's when it is near."""
-        here = self.segment
-        if here.kind in ROW_SEGMENTS and here.row_start is not None:
-            return here
-        ahead = self.leg.next_of(self.place.s, frozenset({SegmentKind.ENTRY}))
-        near = ahead is not None and ahead[1] - self.place.s <= self.params.look_out
-        return ahead[0] if ahead is not None and near and ahead[0].row_start is not None else None
+        return self.leg.row_segment(self.place.s, self.params.look_out)
 
     def row_line(self) -> RowLine | None:
         """Centre line of the row that matters here, as drawn."""
         segment = self.row_segment()
         if segment is None or segment.row_start is None or segment.row_end is None:
             return None
-        (x0, y0), (x1, y1) = segment.row_start, segment.row_end
-        return RowLine(x0, y0, math.atan2(y1 - y0, x1 - x0))
+        return RowLine.between(segment.row_start, segment.row_end)
 
     def to_start(self) -> float | None:
         """Metres ahead at which the row that matters here begins, negative inside; None where none matters."""

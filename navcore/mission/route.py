@@ -13,6 +13,8 @@ from navcore.errors import MissionError
 from navcore.geometry.polyline import Polyline
 from navcore.messages import MissionPlan, PathSegment, SegmentKind
 
+ROW_SEGMENTS = frozenset({SegmentKind.ENTRY, SegmentKind.ROW, SegmentKind.EXIT})
+
 
 @dataclass(frozen=True, slots=True)
 class Place:
@@ -63,6 +65,15 @@ class Leg:
     def segment(self, s: float) -> PathSegment:
         """Segment at arc length `s`."""
         return self.segments[self.segment_index(s)]
+
+    def row_segment(self, s: float, look_out: float) -> PathSegment | None:
+        """Of the row at `s`, or of the one whose entry begins within `look_out` metres."""
+        here = self.segment(s)
+        if here.kind in ROW_SEGMENTS and here.row_start is not None:
+            return here
+        ahead = self.next_of(s, frozenset({SegmentKind.ENTRY}))
+        near = ahead is not None and ahead[1] - s <= look_out
+        return ahead[0] if ahead is not None and near and ahead[0].row_start is not None else None
 
     def row_follows(self, s: float) -> bool:
         """Whether nothing but a headland lies between `s`, at a row's end, and the next row."""
