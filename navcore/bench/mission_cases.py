@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import StrEnum
+from itertools import product
 
 from navcore.maps.mission import RowExit
 from navcore.sim.camera_light import LightName
@@ -103,28 +104,38 @@ class CaseParams:
 
 
 def mission_cases(params: CaseParams) -> tuple[MissionCase, ...]:
-    """All cases, each mission followed by its ablation on GNSS alone."""
-    missions = (*_missions(params), *_row_changes(params))
+    """All cases, each mission followed by its ablation on GNSS alone.
+
+    Kinds, farms, seasons and lights take turns, so that a bench that is broken off has met them all.
+    """
+    missions = _evenly(_missions(params), _row_changes(params))
     alone = tuple(_like(case, CaseKind.GNSS_ONLY) for case in missions)
     return (*_tracks(params), *(case for pair in zip(missions, alone, strict=True) for case in pair))
 
 
+def _evenly(*kinds: tuple[MissionCase, ...]) -> tuple[MissionCase, ...]:
+    """All of them, each kind in its own order and spread over the whole."""
+    placed = [((i + 0.5) / len(cases), kind, case) for kind, cases in enumerate(kinds) for i, case in enumerate(cases)]
+    return tuple(case for _, _, case in sorted(placed, key=lambda p: p[:2]))
+
+
 def _missions(params: CaseParams) -> tuple[MissionCase, ...]:
     """Every farm in every season and light; speeds and exits take turns so that each meets each."""
+    weathers = tuple(product(SEASONS, LIGHTS))
     cases = []
-    for farm in range(1 if params.quick else params.farms):
-        for i, season in enumerate(SEASONS):
-            for j, light in enumerate(LIGHTS):
-                number = farm * 9 + i * 3 + j
-                if params.quick and (season, light) != QUICK:
-                    continue
-                cases.append(
-                    MissionCase(
-                        kind=CaseKind.MISSION, farms=params.source, farm=farm, seed=MISSION_SEED + number,
-                        season=season, light=light, row_exit=EXITS[number % 2], speed=SPEEDS[(number // 2) % 3],
-                        eye=params.eye,
-                    )
-                )  # fmt: skip
+    for turn, farm in product(range(len(weathers)), range(1 if params.quick else params.farms)):
+        weather = (turn + farm) % len(weathers)
+        season, light = weathers[weather]
+        number = farm * len(weathers) + weather
+        if params.quick and (season, light) != QUICK:
+            continue
+        cases.append(
+            MissionCase(
+                kind=CaseKind.MISSION, farms=params.source, farm=farm, seed=MISSION_SEED + number,
+                season=season, light=light, row_exit=EXITS[number % 2], speed=SPEEDS[(number // 2) % 3],
+                eye=params.eye,
+            )
+        )  # fmt: skip
     return tuple(cases)
 
 
