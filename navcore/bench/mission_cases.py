@@ -115,8 +115,8 @@ def mission_cases(params: CaseParams) -> tuple[MissionCase, ...]:
 
 def _evenly(*kinds: tuple[MissionCase, ...]) -> tuple[MissionCase, ...]:
     """All of them, each kind in its own order and spread over the whole."""
-    placed = [((i + 0.5) / len(cases), kind, case) for kind, cases in enumerate(kinds) for i, case in enumerate(cases)]
-    return tuple(case for _, _, case in sorted(placed, key=lambda p: p[:2]))
+    placed = [((i + 0.5) / len(cases), case) for cases in kinds for i, case in enumerate(cases)]
+    return tuple(case for _, case in sorted(placed, key=lambda p: p[0]))
 
 
 def _missions(params: CaseParams) -> tuple[MissionCase, ...]:
