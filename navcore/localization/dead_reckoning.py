@@ -50,14 +50,15 @@ class DeadReckoning:
         self._bias = 0.0
         self._scale = 1.0
 
-    def learn(self, speed_scale: float, gyro_bias: float) -> None:
-        """From now on the wheels' speed is wrong by this share, and the gyro by so many rad/s.
+    def learn_scale(self, speed_scale: float) -> None:
+        """From now on the wheels' speed is wrong by this share: they slip, and tyres wear."""
+        most = self._p.most_scale
+        self._scale = 1.0 + min(max(speed_scale, -most), most)
 
-        Wheels slip and tyres wear; a bias wanders while the robot drives, where standing still cannot show it.
-        """
-        p = self._p
-        self._scale = 1.0 + min(max(speed_scale, -p.most_scale), p.most_scale)
-        self._bias = min(max(gyro_bias, -p.most_bias), p.most_bias)
+    def learn_bias(self, gyro_bias: float) -> None:
+        """From now on the gyro is wrong by so many rad/s: its bias wanders while the robot drives."""
+        most = self._p.most_bias
+        self._bias = min(max(gyro_bias, -most), most)
 
     def add_wheels(self, stamp_ns: int, v: float, omega: float) -> None:
         """Measured speed, m/s, and turn rate of the wheels, rad/s."""

@@ -39,7 +39,8 @@ class GnssNoiseParams:
         told_floor: m, no fix is better than this.
         tilt: m, 1-sigma of the antenna's sway on rough ground: antenna height times roll of about 1 deg.
         heading_std: rad, of a dual antenna that tells none.
-        heading_floor: rad, no heading is better than this.
+        heading_floor: rad, no heading is better than this; `vague_heading_floor` none while the position is no RTK
+            fix: under leaves two antennas agree on a wrong direction for tens of seconds.
         course_speed_std: m/s, of a receiver's velocity across its direction.
     """
 
@@ -52,6 +53,7 @@ class GnssNoiseParams:
     tilt: float = 0.015
     heading_std: float = math.radians(1.0)
     heading_floor: float = math.radians(0.5)
+    vague_heading_floor: float = math.radians(6.0)
     course_speed_std: float = 0.08
 
 
@@ -90,7 +92,8 @@ class GnssNoise:
         """Variance of a dual antenna's heading, rad^2."""
         told = fix.heading_std_rad
         std = self._p.heading_std if told is None else told * self._p.told_factor
-        return max(std, self._p.heading_floor) ** 2
+        fixed = fix.quality is FixQuality.RTK_FIXED
+        return max(std, self._p.heading_floor if fixed else self._p.vague_heading_floor) ** 2
 
     def course_variance(self, speed: float) -> float:
         """Variance of the course over ground at `speed` m/s, rad^2."""

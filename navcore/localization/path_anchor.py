@@ -34,6 +34,8 @@ class PathAnchorParams:
         map_heading: 1-sigma of its direction, rad.
         map_along: 1-sigma of where it begins and ends, m.
         gate: a row end that lies further off than so many 1-sigma is not believed.
+        insist: unless it is seen so many times in a row: then an earlier end was a gap in the row, and the place
+            along it is as unsure as the map and the wheels leave it.
         most_slip: largest share of the metres told by the wheels that were not driven.
         growth_along: 1-sigma of the drift along the path, m per square root of m driven (wheel slip).
     """
@@ -54,6 +56,7 @@ class PathAnchorParams:
     most_slip: float = 0.12
     growth_along: float = 0.15
     gate: float = 3.0
+    insist: int = 5
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,6 +100,7 @@ class PathAnchor:
         p = self.params
         self.var_lateral, self.var_heading, self.var_along = p.map_lateral**2, p.map_heading**2, p.map_along**2
         self._driven = self._held_back = self._just_driven = 0.0
+        self._contradictions = 0
 
     def next_row(self) -> None:
         """Another row, reached from the last one: the map knows their distance better than their place."""
@@ -141,11 +145,23 @@ class PathAnchor:
     def see_along(self, row: RowLine, T_odom_drive: SE2, along: float, std: float) -> None:
         """Correct the position along the row: `along` is the row coordinate x of the driving frame, m."""
         at = row.coordinates(self.T_map_odom @ T_odom_drive)
-        if abs(along - at.x) > self.params.gate * math.hypot(math.sqrt(self.var_along), std):
+        self._doubt_along(abs(along - at.x), std)
+        if self._contradictions:
             return
         gain = self.var_along / (self.var_along + std**2)
         self.var_along *= 1.0 - gain
         self._shift(row, T_odom_drive, gain * (along - at.x))
+
+    def _doubt_along(self, off: float, std: float) -> None:
+        """Count the ends in a row that lie too far off; when they insist, be as unsure as before the first."""
+        p = self.params
+        if off <= p.gate * math.hypot(math.sqrt(self.var_along), std):
+            self._contradictions = 0
+            return
+        self._contradictions += 1
+        unsure = p.map_along**2 + p.growth_along**2 * self._driven
+        if self._contradictions >= p.insist and off <= p.gate * math.hypot(math.sqrt(unsure), std):
+            self.var_along, self._contradictions = max(self.var_along, unsure), 0
 
     def see_no_end(self, row: RowLine, T_odom_drive: SE2, at_most: float) -> None:
         """The row goes on, so the driving frame's row coordinate x is no larger than `at_most`, m.

@@ -121,7 +121,10 @@ class PoseFilter:
             return self._gnss.apply(b, fix, east, north, self._motion.velocity(b).omega)
 
         self._count(self._history.add(Event(fix.stamp_ns, apply)), fix.stamp_ns)
-        self._tell_odometry(self._history.newest)
+        b = self._history.newest
+        self._odometry.learn_scale(float(b.mean[SPEED_SCALE]))
+        if fix.quality is FixQuality.RTK_FIXED:  # headings under leaves are wrong for long, and the bias with them
+            self._odometry.learn_bias(float(b.mean[GYRO_BIAS]))
 
     def add_row(self, seen: RowObservation, line: SE2) -> None:
         """A row seen by a camera; `line` is a point of its centre line in `map` and its direction, either way."""
@@ -130,10 +133,6 @@ class PoseFilter:
             return
         event = Event(seen.stamp_ns, lambda b: [self._row.apply(b, seen, line)])
         self._count(self._history.add(event), seen.stamp_ns)
-        self._tell_odometry(self._history.newest)
-
-    def _tell_odometry(self, b: Belief) -> None:
-        self._odometry.learn(float(b.mean[SPEED_SCALE]), float(b.mean[GYRO_BIAS]))
 
     def restart(self, reason: str) -> None:
         """Forget the pose and wait for a new position and heading, at an operator's word."""

@@ -121,7 +121,10 @@ def _gnss_good(f: ModeFacts, p: ModeSelectorParams) -> bool:
 
 
 def _left(f: ModeFacts, p: ModeSelectorParams) -> bool:
-    return f.to_end is None or f.to_end <= -p.clear
+    """Past the row's end, and no picture of now shows more of the row ahead."""
+    passed = f.to_end is None or f.to_end <= -p.clear
+    ends_ahead = f.seen_end is not None and f.seen_end > p.clear and not _lost(f, p)
+    return passed and not ends_ahead
 
 
 def _clear(f: ModeFacts, p: ModeSelectorParams) -> bool:

@@ -28,7 +28,7 @@ class RowEndParams:
     """
 
     reliable_range: float = 10.0
-    gap: float = 3.0
+    gap: float = 4.0
     uneven: float = 1.4
     agree: float = 0.7
     least_gain: float = 0.1

@@ -107,6 +107,20 @@ def test_a_row_end_far_from_where_it_can_be_is_not_believed() -> None:
     assert ROW.coordinates(anchor.T_map_odom @ odom).x == pytest.approx(before, abs=1e-9)
 
 
+def test_a_gap_taken_for_the_end_is_given_up_when_the_true_end_is_seen_again_and_again() -> None:
+    """A robot once turned 3 m before the true end, which it saw all the while."""
+    anchor, odom = anchored(), SE2(8.0, 3.0, 0.25)
+    anchor.drive(60.0)
+    x = ROW.coordinates(anchor.T_map_odom @ odom).x
+    for _ in range(30):
+        anchor.see_along(ROW, odom, along=x + 3.2, std=0.4)
+    anchor.see_along(ROW, odom, along=x - 1.0, std=0.4)
+    assert ROW.coordinates(anchor.T_map_odom @ odom).x == pytest.approx(x + 3.2, abs=0.2)  # m: one is not enough
+    for _ in range(30):
+        anchor.see_along(ROW, odom, along=x - 1.0, std=0.4)
+    assert ROW.coordinates(anchor.T_map_odom @ odom).x == pytest.approx(x - 1.0, abs=0.2)  # m
+
+
 def test_a_wrong_map_is_corrected_by_the_row_end() -> None:
     anchor, odom = anchored(), SE2(8.0, 3.0, 0.25)
     before = ROW.coordinates(anchor.T_map_odom @ odom).x

@@ -94,6 +94,12 @@ def test_the_row_is_left_on_the_straight_before_the_turn_and_not_in_it() -> None
     assert mode_after(NavMode.ROW_END, replace(no_fix, turn_follows=False)) is NavMode.ROW_END
 
 
+def test_no_turn_begins_while_the_camera_sees_more_of_the_row_ahead() -> None:
+    sees_more = replace(LEFT_ROW, gnss_streak=0, turn_follows=True, seen_end=3.1, row_age_s=0.1)
+    assert mode_after(NavMode.ROW_END, sees_more) is NavMode.ROW_END
+    assert mode_after(NavMode.ROW_END, replace(sees_more, row_age_s=4.0)) is NavMode.HEADLAND
+
+
 def test_out_of_a_turn_the_camera_takes_over_when_the_robot_has_come_straight() -> None:
     assert mode_after(NavMode.HEADLAND, replace(BEFORE_ROW, to_start=2.9)) is NavMode.ROW_ENTRY
     assert mode_after(NavMode.HEADLAND, replace(BEFORE_ROW, to_start=4.5)) is NavMode.HEADLAND
