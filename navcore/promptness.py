@@ -67,7 +67,10 @@ def short_slices(thread: int = 0) -> bool:
     number = _SCHED_SETATTR.get(platform.machine())
     if number is None or platform.system() != "Linux":
         return False
-    wanted = _SchedAttr(size=ctypes.sizeof(_SchedAttr), sched_policy=os.SCHED_OTHER, sched_runtime=SLICE_NS)
+    wanted = _SchedAttr(
+        size=ctypes.sizeof(_SchedAttr), sched_policy=os.SCHED_OTHER, sched_runtime=SLICE_NS,
+        sched_nice=os.getpriority(os.PRIO_PROCESS, thread),
+    )  # fmt: skip
     return bool(ctypes.CDLL(None).syscall(number, thread, ctypes.byref(wanted), 0) == 0)
 
 

@@ -99,7 +99,7 @@ class PathAnchor:
         """Forget how well the drawn row is known: the next row is told by the map alone."""
         p = self.params
         self.var_lateral, self.var_heading, self.var_along = p.map_lateral**2, p.map_heading**2, p.map_along**2
-        self._driven = self._held_back = self._just_driven = 0.0
+        self._driven = self._held_back = 0.0
         self._contradictions = 0
 
     def next_row(self) -> None:
@@ -113,7 +113,6 @@ class PathAnchor:
         """Let the uncertainty grow over a driven distance, m."""
         p, d = self.params, abs(distance)
         self._driven += d
-        self._just_driven = d
         self.var_lateral += p.growth_lateral**2 * d
         self.var_heading += p.growth_heading**2 * d
         self.var_along += p.growth_along**2 * d
@@ -184,15 +183,15 @@ class PathAnchor:
     def _set(self, T_map_drive: SE2, T_odom_drive: SE2) -> None:
         self.T_map_odom = T_map_drive @ T_odom_drive.inverse()
 
-    def slide(self, T_odom_drive: SE2, dt: float, lateral_error: float = 0.0) -> SE2:
-        """Move the followed tie towards the wanted one, `dt` seconds and one `drive` after the last time.
+    def slide(self, T_odom_drive: SE2, dt: float, driven: float, lateral_error: float = 0.0) -> SE2:
+        """Move the followed tie towards the wanted one, `dt` seconds and `driven` metres after the last time.
 
         `lateral_error` is the robot's distance from its path now, positive on its left. Returns the followed pose of
         the driving frame.
         """
         at = self.followed @ T_odom_drive
         off = at.inverse() @ self.T_map_odom @ T_odom_drive
-        p, d = self.params, self._just_driven
+        p, d = self.params, abs(driven)
         aside = self._patience(off.y, lateral_error) * min(p.slide * dt, p.slide_share * d)
         # In a bend what slides along the path becomes an error to the side.
         ahead = max(1.0 - abs(lateral_error) / p.patience, 0.0) * min(p.slide_along * dt, p.along_share * d)

@@ -140,6 +140,10 @@ def _metres(value: float | None) -> str:
     return "unknown" if value is None else f"{value:.2f} m"
 
 
+def _row_ahead(f: ModeFacts) -> str:
+    return f"row ahead seen in {f.row_streak} pictures, entrance in {_metres(f.to_start)}"
+
+
 SWITCHES: tuple[Switch, ...] = (
     Switch(
         frozenset({NavMode.GNSS_PATH, NavMode.HEADLAND}),
@@ -151,13 +155,13 @@ SWITCHES: tuple[Switch, ...] = (
         frozenset({NavMode.GNSS_PATH}),
         NavMode.ROW_ENTRY,
         lambda f, p: _near_row(f) and _row_trusted(f, p),
-        lambda f: f"row ahead seen in {f.row_streak} pictures, entrance in {_metres(f.to_start)}",
+        _row_ahead,
     ),
     Switch(
         frozenset({NavMode.HEADLAND}),
         NavMode.ROW_ENTRY,
         lambda f, p: _near_row(f) and _row_trusted(f, p) and _in_entry_zone(f, p),
-        lambda f: f"row ahead seen in {f.row_streak} pictures, entrance in {_metres(f.to_start)}",
+        _row_ahead,
     ),
     Switch(
         frozenset({NavMode.ROW_ENTRY}),

@@ -98,12 +98,12 @@ class Pilot:
 
         Each row observation comes with `T_odom_base` at its capture.
         """
-        self._carry(at)
+        driven = self._carry(at)
         for seen, T_odom_base in row_seen:
             self._see(seen, self.driving_pose(T_odom_base))
         if self.mode is NavMode.GNSS_PATH and at.T_map_base is not None:
             self.anchor.follow(at.T_map_base @ at.T_odom_base.inverse())
-        self.pose = self.anchor.slide(self.driving_pose(at.T_odom_base), dt, self.projection.lateral)
+        self.pose = self.anchor.slide(self.driving_pose(at.T_odom_base), dt, driven, self.projection.lateral)
         self.projection = self._project(self.place.s)
         self.captured = self.captured or abs(self.projection.lateral) <= self.params.capture
         self.place = Place(self.place.leg, self.projection.s)
@@ -119,7 +119,8 @@ class Pilot:
         """Pose of the driving frame: turned by pi on a leg that is driven backwards."""
         return T_x_base @ HALF_TURN if self.leg.reverse else T_x_base
 
-    def _carry(self, at: Position) -> None:
+    def _carry(self, at: Position) -> float:
+        """Drive on by odometry; the distance, m."""
         moved = self._at.T_odom_base.inverse() @ at.T_odom_base
         distance = math.hypot(moved.x, moved.y)
         self.anchor.drive(distance)
@@ -127,6 +128,7 @@ class Pilot:
         if self.mode in CARRIED:
             self._take_drift(self._at, at)
         self._at = at
+        return distance
 
     def _take_drift(self, before: Position, now: Position) -> None:
         """Away from plants GNSS says by how much the wheels slip, though not where the row lies on the map."""

@@ -36,6 +36,12 @@ def test_a_process_that_may_not_be_real_time_stays_ordinary_and_asks_for_short_s
     assert (permitted, ordinary) == ("False", "True")
 
 
+def test_whoever_was_started_with_lower_priority_keeps_it_with_short_slices() -> None:
+    asks = "import os; os.nice(7); from navcore.promptness import short_slices; print(short_slices(), os.nice(0))"
+    told = subprocess.run([sys.executable, "-c", asks], capture_output=True, text=True, check=True).stdout.split()
+    assert told[1] == "7"
+
+
 def test_work_in_the_background_is_idle_by_the_kernels_own_word() -> None:
     asks = "import os; from navcore.promptness import stand_back; stand_back(); print(os.sched_getscheduler(0))"
     told = subprocess.run([sys.executable, "-c", asks], capture_output=True, text=True, check=True).stdout

@@ -81,8 +81,7 @@ def test_followed_pose_never_jumps(dx: float, dy: float, turn: float, dt: float,
     anchor, odom = anchored(), SE2(8.0, 3.0, 0.25)
     before = anchor.followed @ odom
     anchor.follow(SE2(2.0 + dx, 1.0 + dy, 0.1 + turn))
-    anchor.drive(driven)
-    after = anchor.slide(odom, dt)
+    after = anchor.slide(odom, dt, driven)
     params = anchor.params
     moved = before.inverse() @ after
     assert abs(moved.y) <= min(params.slide * dt, params.slide_share * driven) + 1e-9
@@ -94,8 +93,7 @@ def test_followed_pose_arrives() -> None:
     anchor, odom = anchored(), SE2(8.0, 3.0, 0.25)
     anchor.follow(SE2(2.5, 1.0, 0.15))
     for _ in range(500):
-        anchor.drive(0.01)
-        pose = anchor.slide(odom, 0.02)
+        pose = anchor.slide(odom, 0.02, 0.01)
     wanted = anchor.T_map_odom @ odom
     assert (pose.x, pose.y, pose.yaw) == pytest.approx((wanted.x, wanted.y, wanted.yaw), abs=1e-6)
 
@@ -135,6 +133,5 @@ def test_the_path_waits_for_a_robot_that_does_not_follow() -> None:
     anchor.follow(wanted @ odom.inverse())
     for _ in range(500):
         lateral = (before.inverse() @ anchor.followed @ odom).y
-        anchor.drive(0.01)
-        anchor.slide(odom, 0.02, lateral)
+        anchor.slide(odom, 0.02, 0.01, lateral)
     assert (before.inverse() @ anchor.followed @ odom).y <= anchor.params.patience  # m
