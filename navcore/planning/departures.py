@@ -61,7 +61,7 @@ def through_the_end(row: DrivenRow, params: PlanningParams) -> list[Departure]:
     """Straight out at the far end, a shorter or longer way."""
     inside = max(row.length - params.exit_inside, row.length / 2)
     departures = []
-    for out in (params.exit_length + extra for extra in (0.0, 1.0, 2.0, 3.5)):
+    for out in params.exits:
         part = Part(SegmentKind.EXIT, row.line(inside, row.length + out, params.step), row=row)
         departures.append(Departure((part,), row.pose(row.length + out), straight_cost(out, params.turn_exit)))
     return departures

@@ -50,8 +50,7 @@ def headland_turn(left: DrivenRow, entered: DrivenRow, blocked: Blocked, params:
 
 
 def _sweep(left: DrivenRow, entered: DrivenRow, blocked: Blocked, params: PlanningParams) -> Turn:
-    exits = (params.exit_length + extra for extra in (0.0, 1.0, 2.0, 3.5))
-    starts = [Option(left.pose(left.length + d), straight_cost(d, params.turn_exit), d) for d in exits]
+    starts = [Option(left.pose(left.length + d), straight_cost(d, params.turn_exit), d) for d in params.exits]
     entries = (d for d in (5.0, 4.0, 3.0, 2.0, params.least_entry) if d >= params.least_entry)
     goals = [Option(entered.pose(-d), straight_cost(d, params.turn_entry), d) for d in entries]
     found = connect(starts, goals, params.radii, blocked, longest=25.0)

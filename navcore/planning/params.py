@@ -62,6 +62,11 @@ class PlanningParams:
     early_leave: float = 8.0
     row_margin: float = 0.15
 
+    @property
+    def exits(self) -> tuple[float, ...]:
+        """Straight runs past a row's end to choose from, m."""
+        return tuple(self.exit_length + extra for extra in (0.0, 1.0, 2.0, 3.5))
+
     def turn_rate(self, vehicle: VehicleParams) -> float:
         """Turn rate on the ground that paths may count on, rad/s."""
         return self.turn_share * vehicle.max_turn_rate / vehicle.turn_track_ratio

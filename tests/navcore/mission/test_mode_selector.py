@@ -94,7 +94,7 @@ def test_the_row_is_left_on_the_straight_before_the_turn_and_not_in_it() -> None
     assert mode_after(NavMode.ROW_END, replace(no_fix, turn_follows=False)) is NavMode.ROW_END
 
 
-def test_no_turn_begins_while_the_camera_sees_more_of_the_row_ahead() -> None:
+def test_on_the_straight_the_row_is_not_left_while_the_camera_sees_its_end_ahead() -> None:
     sees_more = replace(LEFT_ROW, gnss_streak=0, turn_follows=True, seen_end=3.1, row_age_s=0.1)
     assert mode_after(NavMode.ROW_END, sees_more) is NavMode.ROW_END
     assert mode_after(NavMode.ROW_END, replace(sees_more, row_age_s=4.0)) is NavMode.HEADLAND
