@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
+
+if TYPE_CHECKING:
+    from navcore.training.augment import AugmentParams
+    from navcore.training.model import FootNetParams
 
 
 def register(app: typer.Typer) -> None:
@@ -17,8 +21,16 @@ def train(
     data: Annotated[Path, typer.Argument(help="Folder of training pictures with annotations.json (COCO).")],
     validation: Annotated[Path, typer.Argument(help="Folder of pictures that are not trained on.")],
     out: Annotated[Path, typer.Option(help="Folder for last.pt, best.pt and feet.onnx.")] = Path("training"),
+    net: Annotated[str, typer.Option(help="Which network: small or large.")] = "small",
     epochs: Annotated[int, typer.Option(min=1, help="Passes over the training pictures.")] = 24,
+    minutes: Annotated[float | None, typer.Option(min=0.05, help="No longer than so.")] = None,
+    batch: Annotated[int, typer.Option(min=2, help="Pictures per step.")] = 12,
+    crop: Annotated[tuple[int, int], typer.Option(help="Width and height trained on, px, multiples of 32.")] = (
+        256,
+        192,
+    ),
     seed: Annotated[int, typer.Option(help="Of weights, order and augmentation.")] = 1,
+    device: Annotated[str, typer.Option(help="cpu, cuda, or auto: a GPU where there is one.")] = "auto",
     threads: Annotated[int, typer.Option(min=1, help="CPU threads.")] = 1,
     resume: Annotated[bool, typer.Option(help="Go on from OUT/last.pt.")] = False,
 ) -> None:
@@ -28,7 +40,10 @@ def train(
     from navcore.training.trainer import Trainer, TrainerParams
 
     try:
-        params = TrainerParams(epochs=epochs, seed=seed, threads=threads)
+        params = TrainerParams(
+            epochs=epochs, minutes=minutes, batch=batch, seed=seed, device=device, threads=threads,
+            net=_named(net), augment=_cropped(crop),
+        )  # fmt: skip
         trainer = Trainer(out, read_samples(data), read_samples(validation), params)
         if resume:
             trainer.resume()
@@ -37,6 +52,24 @@ def train(
     except RowpilotError as error:
         typer.echo(str(error), err=True)
         raise typer.Exit(1) from error
+
+
+def _named(name: str) -> FootNetParams:
+    from navcore.errors import InputError
+    from navcore.training.model import NETS
+
+    if name not in NETS:
+        raise InputError(f"There is no network {name!r}; choose one of {', '.join(NETS)}.")
+    return NETS[name]
+
+
+def _cropped(size: tuple[int, int]) -> AugmentParams:
+    from navcore.errors import InputError
+    from navcore.training.augment import AugmentParams
+
+    if any(side < 64 or side % 32 for side in size):
+        raise InputError("A crop's width and height are multiples of 32 px, 64 or more.")
+    return AugmentParams(width_px=size[0], height_px=size[1])
 
 
 def _ship(best: Path, path: Path, validation: Path, threshold: float) -> None:

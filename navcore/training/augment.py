@@ -1,13 +1,14 @@
-"""Pictures as they could also have been: other crops, sizes, sides and lights."""
+"""Pictures as they could also have been: other crops, sizes, sides and lights. A batch at a time, on any device."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-import cv2
-import numpy as np
+import torch
+from torch import Tensor
+from torch.nn import functional
 
-from navcore.training.samples import Image, Labels
+from navcore.training.pictures import BatchLabels
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -17,65 +18,136 @@ class AugmentParams:
     Attributes:
         width_px, height_px: of the crop, multiples of 32; a part of the picture trains as well for less time.
         foot_share: share of the crops that are laid about an object's foot; the others lie anywhere.
-        full_height_px: the network's input height; crops reach as far below the picture as its padding does.
         scale: factor on the size, from 1 / scale to scale.
+        stretch: factor on the width over that on the height, from 1 / stretch to stretch.
         gain, gamma: factors on brightness, contrast and each colour; exponent of the tone curve.
-        noise: largest deviation of added noise, of 255.
+        fade: largest share of the colours that is taken out.
+        noise: largest deviation of added noise, of 1.
         blur_share: share of the pictures that are blurred a little.
     """
 
     width_px: int = 256
     height_px: int = 192
     foot_share: float = 0.7
-    full_height_px: int = 384
-    scale: float = 1.25
-    gain: float = 1.3
+    scale: float = 1.3
+    stretch: float = 1.1
+    gain: float = 1.35
     gamma: float = 1.4
-    noise: float = 8.0
-    blur_share: float = 0.2
+    fade: float = 0.6
+    noise: float = 0.035
+    blur_share: float = 0.25
 
 
-def augment(image: Image, labels: Labels, params: AugmentParams, rng: np.random.Generator) -> tuple[Image, Labels]:
-    """One crop (height_px, width_px, 3) and its labels; boxes may reach out of it."""
-    scale = params.scale ** rng.uniform(-1.0, 1.0)
-    u0, v0 = _corner(image, labels, scale, params, rng)
-    flip = rng.random() < 0.5
-    sign, shift = (-scale, params.width_px + u0 - 1) if flip else (scale, -u0)
-    warp = np.array([[sign, 0.0, shift], [0.0, scale, -v0]])
-    size = (params.width_px, params.height_px)
-    crop = np.asarray(cv2.warpAffine(image, warp, size, flags=cv2.INTER_LINEAR), dtype=np.uint8)
-    return relight(crop, params, rng), _moved(labels, scale, u0, v0, params.width_px if flip else None)
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Crop:
+    """Where each of B crops comes from, all (B,): pixels of the crop are `scale` times the picture's, less the corner
+    (`u0`, `v0`); mirrored where `flip`."""
+
+    scale_u: Tensor
+    scale_v: Tensor
+    u0: Tensor
+    v0: Tensor
+    flip: Tensor
 
 
-def _corner(
-    image: Image, labels: Labels, scale: float, params: AugmentParams, rng: np.random.Generator
-) -> tuple[float, float]:
-    """Upper left corner of the crop in the scaled picture: about a foot, or anywhere."""
-    room_u = max(image.shape[1] * scale - params.width_px, 1.0)
-    room_v = max(max(image.shape[0] * scale, params.full_height_px) - params.height_px, 1.0)
-    u0, v0 = rng.uniform(0, room_u), rng.uniform(0, room_v)
-    feet = np.flatnonzero(~labels.ignore)
-    if len(feet) and rng.random() < params.foot_share:
-        x1, _, x2, y2 = labels.boxes[rng.choice(feet)] * scale
-        u0 = (x1 + x2) / 2 - params.width_px * rng.uniform(0.1, 0.9)
-        v0 = y2 - params.height_px * rng.uniform(0.3, 0.95)
-    return float(np.clip(u0, 0, room_u)), float(np.clip(v0, 0, room_v))
+def augment(
+    images: Tensor, labels: BatchLabels, params: AugmentParams, rng: torch.Generator
+) -> tuple[Tensor, BatchLabels]:
+    """Crops (B, 3, height_px, width_px), 0 to 1, of pictures (B, 3, H, W) uint8; boxes may reach out of them.
+
+    `rng` must live on the pictures' device.
+    """
+    crop = random_crop(images.shape[2:], labels, params, rng)
+    return relight(cut(images, crop, params), params, rng), moved(labels, crop, params)
 
 
-def _moved(labels: Labels, scale: float, u0: float, v0: float, mirror_px: int | None) -> Labels:
-    boxes = labels.boxes * scale - (u0, v0, u0, v0)
-    if mirror_px is not None:
-        boxes = np.column_stack((mirror_px - boxes[:, 2], boxes[:, 1], mirror_px - boxes[:, 0], boxes[:, 3]))
-    return Labels(boxes=boxes, kinds=labels.kinds, ignore=labels.ignore)
+def random_crop(size: torch.Size, labels: BatchLabels, params: AugmentParams, rng: torch.Generator) -> Crop:
+    """A crop per picture of that size (H, W): about one of its feet, or anywhere."""
+    draw = _Draw(rng, len(labels.boxes), labels.boxes.device)
+    scale, stretch = draw.factor(params.scale), draw.factor(params.stretch**0.5)
+    scale_u, scale_v = scale * stretch, scale / stretch
+    room_u = (size[1] * scale_u - params.width_px).clamp(min=0.0)
+    room_v = (size[0] * scale_v - params.height_px).clamp(min=0.0)
+    foot_u, foot_v, known = _some_foot(labels, draw)
+    about = known & (draw.uniform(0.0, 1.0) < params.foot_share)
+    u0 = torch.where(about, foot_u * scale_u - params.width_px * draw.uniform(0.1, 0.9), room_u * draw.uniform(0, 1))
+    v0 = torch.where(
+        about, foot_v * scale_v - params.height_px * draw.uniform(0.3, 0.95), room_v * draw.uniform(0, 1)
+    )
+    u0, v0 = torch.minimum(u0.clamp(min=0.0), room_u), torch.minimum(v0.clamp(min=0.0), room_v)
+    return Crop(scale_u=scale_u, scale_v=scale_v, u0=u0, v0=v0, flip=draw.uniform(0.0, 1.0) < 0.5)
 
 
-def relight(image: Image, params: AugmentParams, rng: np.random.Generator) -> Image:
-    """Another exposure, white balance, tone curve, blur and noise."""
-    tone = np.linspace(0.0, 1.0, 256)[:, None] ** (params.gamma ** rng.uniform(-1, 1))
-    gain = params.gain ** rng.uniform(-1, 1) * (1 + 0.3 * (params.gain - 1) * rng.uniform(-1, 1, 3))
-    table = np.clip(255 * tone * gain, 0, 255).astype(np.uint8)
-    changed = np.asarray(cv2.LUT(image, table[:, None, :]), dtype=np.uint8)
-    if rng.random() < params.blur_share:
-        changed = np.asarray(cv2.GaussianBlur(changed, (0, 0), rng.uniform(0.4, 1.2)), dtype=np.uint8)
-    noise = rng.standard_normal(changed.shape[:2], dtype=np.float32) * np.float32(rng.uniform(0.0, params.noise))
-    return np.clip(changed + noise[..., None], 0, 255).astype(np.uint8)
+def _some_foot(labels: BatchLabels, draw: _Draw) -> tuple[Tensor, Tensor, Tensor]:
+    """Foot (u, v) of one counted object per picture, all (B,), and whether there is one."""
+    known = labels.asked.any(dim=1)
+    weight = labels.asked.float() + (~known).float()[:, None]
+    pick = torch.multinomial(weight, 1, generator=draw.rng)
+    box = labels.boxes[torch.arange(len(pick), device=pick.device), pick[:, 0]]
+    return (box[:, 0] + box[:, 2]) / 2, box[:, 3], known
+
+
+def cut(images: Tensor, crop: Crop, params: AugmentParams) -> Tensor:
+    """The crops (B, 3, height_px, width_px), 0 to 1; black beyond the picture."""
+    height, width = images.shape[2:]
+    sign = 1.0 - 2.0 * crop.flip.float()
+    start_u = torch.where(crop.flip, crop.u0 + params.width_px, crop.u0)
+    theta = torch.zeros(len(images), 2, 3, device=images.device)
+    theta[:, 0, 0] = sign * params.width_px / (crop.scale_u * width)
+    theta[:, 0, 2] = theta[:, 0, 0] + 2.0 * start_u / (crop.scale_u * width) - 1.0
+    theta[:, 1, 1] = params.height_px / (crop.scale_v * height)
+    theta[:, 1, 2] = theta[:, 1, 1] + 2.0 * crop.v0 / (crop.scale_v * height) - 1.0
+    size = [len(images), 3, params.height_px, params.width_px]
+    grid = functional.affine_grid(theta, size, align_corners=False)
+    return functional.grid_sample(images.float() / 255.0, grid, align_corners=False)
+
+
+def moved(labels: BatchLabels, crop: Crop, params: AugmentParams) -> BatchLabels:
+    """The boxes where the crops show them."""
+    scale = torch.stack((crop.scale_u, crop.scale_v, crop.scale_u, crop.scale_v), dim=1)[:, None]
+    corner = torch.stack((crop.u0, crop.v0, crop.u0, crop.v0), dim=1)[:, None]
+    boxes = labels.boxes * scale - corner
+    mirrored = torch.stack(
+        (params.width_px - boxes[..., 2], boxes[..., 1], params.width_px - boxes[..., 0], boxes[..., 3]), dim=2
+    )
+    return replace(labels, boxes=torch.where(crop.flip[:, None, None], mirrored, boxes))
+
+
+def relight(images: Tensor, params: AugmentParams, rng: torch.Generator) -> Tensor:
+    """Another exposure, white balance, tone curve, blur, colour and noise of pictures (B, 3, h, w), 0 to 1."""
+    draw = _Draw(rng, len(images), images.device)
+    gain = torch.stack([draw.factor(1.0 + 0.3 * (params.gain - 1.0)) for _ in range(3)], dim=1)
+    gain = (gain * draw.factor(params.gain)[:, None])[:, :, None, None]
+    changed = images.clamp(min=1e-4) ** draw.factor(params.gamma)[:, None, None, None] * gain
+    fade = draw.uniform(0.0, params.fade)[:, None, None, None]
+    changed = changed.lerp(changed.mean(dim=1, keepdim=True), fade)
+    changed = changed.lerp(_blurred(changed), draw.chosen(params.blur_share)[:, None, None, None])
+    noise = torch.randn(len(images), 1, *images.shape[2:], generator=rng, device=images.device)
+    return (changed + noise * draw.uniform(0.0, params.noise)[:, None, None, None]).clamp(0.0, 1.0)
+
+
+def _blurred(images: Tensor) -> Tensor:
+    """Pictures (B, 3, h, w) under a Gaussian of 1 px."""
+    line = torch.tensor((0.06, 0.24, 0.4, 0.24, 0.06), device=images.device)
+    kernel = (line[:, None] * line[None]).expand(3, 1, 5, 5)
+    return functional.conv2d(images, kernel, padding=2, groups=3)
+
+
+@dataclass(frozen=True, slots=True)
+class _Draw:
+    """Random numbers, one per picture."""
+
+    rng: torch.Generator
+    count: int
+    device: torch.device
+
+    def uniform(self, low: float, high: float) -> Tensor:
+        return low + (high - low) * torch.rand(self.count, generator=self.rng, device=self.device)
+
+    def factor(self, largest: float) -> Tensor:
+        """From 1 / largest to largest, even in the logarithm."""
+        return torch.as_tensor(largest, device=self.device) ** self.uniform(-1.0, 1.0)
+
+    def chosen(self, share: float) -> Tensor:
+        """A weight from 0 to 1 for that share of the pictures, 0 for the others."""
+        return self.uniform(0.0, 1.0) * (self.uniform(0.0, 1.0) < share).float()

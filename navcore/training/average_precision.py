@@ -63,16 +63,16 @@ def judge(boxes: Floats, truth: Labels, kind: int, min_overlap: float) -> Ints:
         fit = np.where(taken, 0.0, overlap(open_truths, box))
         if len(fit) and fit.max() >= min_overlap:
             taken[int(fit.argmax())], verdicts[i] = True, TRUE
-        elif np.any(_covered(others, box) > 0.5):
+        elif np.any(np.maximum(_covered(others, box), _covered(box[None], others)) > 0.5):
             verdicts[i] = UNASKED
     return verdicts
 
 
-def _covered(others: Floats, box: Floats) -> Floats:
-    """Share of `box` that each of the others (N, 4) covers."""
-    width = np.minimum(others[:, 2], box[2]) - np.maximum(others[:, 0], box[0])
-    height = np.minimum(others[:, 3], box[3]) - np.maximum(others[:, 1], box[1])
-    area = max((box[2] - box[0]) * (box[3] - box[1]), 1e-9)
+def _covered(others: Floats, boxes: Floats) -> Floats:
+    """Share of `boxes` that the others cover; (..., 4) each, broadcast."""
+    width = np.minimum(others[..., 2], boxes[..., 2]) - np.maximum(others[..., 0], boxes[..., 0])
+    height = np.minimum(others[..., 3], boxes[..., 3]) - np.maximum(others[..., 1], boxes[..., 1])
+    area = np.maximum((boxes[..., 2] - boxes[..., 0]) * (boxes[..., 3] - boxes[..., 1]), 1e-9)
     return np.asarray(np.maximum(width, 0.0) * np.maximum(height, 0.0) / area)
 
 

@@ -11,9 +11,7 @@ import torch
 from torch import Tensor, nn
 
 from navcore.errors import ModelError
-from navcore.training.model import FootNet, peaks
-
-INPUT_HEIGHT_PX, INPUT_WIDTH_PX = 384, 640
+from navcore.training.model import INPUT_HEIGHT_PX, INPUT_WIDTH_PX, FootNet, peaks
 
 
 class Deployed(nn.Module):

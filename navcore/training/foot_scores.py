@@ -70,10 +70,19 @@ def _pairs(
     pairs: list[tuple[int, int]] = []
     taken, unasked = np.zeros(len(truths), dtype=np.bool_), 0
     for i, foot in enumerate(feet):
-        away = np.hypot(*(truths - foot).T) + 1e6 * taken + 1e3 * ignore
-        j = int(away.argmin()) if len(away) else -1
-        if j >= 0 and away[j] - 1e3 * ignore[j] <= near_px:
+        away = np.hypot(*(truths - foot).T)
+        j = _nearest(away, ~taken & ~ignore, near_px)
+        j = _nearest(away, ~taken & ignore, near_px) if j is None else j
+        if j is not None:
             taken[j] = True
             unasked += int(ignore[j])
             pairs.append((i, j))
     return pairs, unasked
+
+
+def _nearest(away: Floats, allowed: NDArray[np.bool_], near_px: float) -> int | None:
+    """The nearest of the allowed, within `near_px`."""
+    if not allowed.any():
+        return None
+    j = int(np.where(allowed, away, np.inf).argmin())
+    return j if away[j] <= near_px else None

@@ -1,4 +1,4 @@
-"""Loss of the foot detector: a focal loss for where, a weighted L1 for the box."""
+"""Loss of the foot detector: a focal loss for where, a weighted L1 and the overlap for the box."""
 
 from __future__ import annotations
 
@@ -7,6 +7,8 @@ from dataclasses import dataclass
 import torch
 from torch import Tensor
 
+from navcore.training.targets import Targets
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LossParams:
@@ -14,11 +16,13 @@ class LossParams:
 
     Attributes:
         foot, size: of the foot's place and of the logarithms of width and height, beside the focal loss.
+        overlap: of one less the intersection over union with the true box.
         alpha, beta: exponents of the focal loss (Law and Deng 2018, Equation 1: 2 and 4).
     """
 
     foot: float = 1.0
     size: float = 0.5
+    overlap: float = 1.0
     alpha: float = 2.0
     beta: float = 4.0
 
@@ -34,12 +38,31 @@ def focal_loss(logits: Tensor, heat: Tensor, alpha: float, beta: float) -> Tenso
 
 
 def box_loss(boxes: Tensor, wanted: Tensor, weight: Tensor, params: LossParams) -> Tensor:
-    """Weighted L1 of the box values (B, 4, h, w), per unit of weight (B, h, w)."""
+    """Weighted L1 and overlap of the box values (B, 4, h, w), per unit of weight (B, h, w)."""
     per_value = torch.tensor((params.foot, params.foot, params.size, params.size), device=boxes.device)
-    error = (boxes - wanted).abs() * weight[:, None] * per_value[:, None, None]
-    return error.sum() / weight.sum().clamp(min=1)
+    error = ((boxes - wanted).abs() * per_value[:, None, None]).sum(dim=1)
+    error = error + params.overlap * (1.0 - overlap(boxes, wanted))
+    return (error * weight).sum() / weight.sum().clamp(min=1)
 
 
-def loss(logits: Tensor, boxes: Tensor, heat: Tensor, wanted: Tensor, weight: Tensor, params: LossParams) -> Tensor:
+def overlap(boxes: Tensor, others: Tensor) -> Tensor:
+    """Intersection over union (B, h, w) of box values (B, 4, h, w) that stand in the same cells."""
+    left, top, right, bottom = _sides(boxes)
+    other_left, other_top, other_right, other_bottom = _sides(others)
+    width = torch.minimum(right, other_right) - torch.maximum(left, other_left)
+    height = torch.minimum(bottom, other_bottom) - torch.maximum(top, other_top)
+    common = width.clamp(min=0) * height.clamp(min=0)
+    areas = (right - left) * (bottom - top) + (other_right - other_left) * (other_bottom - other_top)
+    return common / (areas - common).clamp(min=1e-6)
+
+
+def _sides(boxes: Tensor) -> tuple[Tensor, Tensor, Tensor, Tensor]:
+    u, v, log_width, log_height = boxes.unbind(dim=1)
+    half, height = log_width.clamp(-4, 6).exp() / 2, log_height.clamp(-4, 6).exp()
+    return u - half, v - height, u + half, v
+
+
+def loss(logits: Tensor, boxes: Tensor, wanted: Targets, params: LossParams) -> Tensor:
     """Total for a batch."""
-    return focal_loss(logits, heat, params.alpha, params.beta) + box_loss(boxes, wanted, weight, params)
+    where = focal_loss(logits, wanted.heat, params.alpha, params.beta)
+    return where + box_loss(boxes, wanted.boxes, wanted.weight, params)

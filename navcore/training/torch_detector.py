@@ -20,6 +20,7 @@ class TorchDetector:
     def __init__(self, net: nn.Module, decoding: DecodingParams = DecodingParams(threshold=0.05)) -> None:
         self._net = net.eval()
         self._decoding = decoding
+        self._device = next(net.parameters()).device
 
     @torch.no_grad()
     def detect(self, image: Image) -> tuple[DetectedObject, ...]:
@@ -28,6 +29,6 @@ class TorchDetector:
         padded = np.zeros((math.ceil(height / 32) * 32, math.ceil(width / 32) * 32, 3), dtype=np.float32)
         padded[:height, :width] = image.astype(np.float32) / 255
         blob = torch.from_numpy(padded).permute(2, 0, 1)[None].contiguous(memory_format=torch.channels_last)
-        logits, boxes = self._net(blob)
+        logits, boxes = (values.cpu() for values in self._net(blob.to(self._device)))
         found, confidence, kinds = decode(peaks(logits)[0].numpy(), boxes[0].numpy(), STRIDE, self._decoding)
         return detected_objects(found, confidence, kinds, scale=1.0, width_px=width, height_px=height)

@@ -7,7 +7,14 @@ import math
 import numpy as np
 import pytest
 
-from navcore.training.average_precision import Found, average_precision, mean_average_precision
+from navcore.training.average_precision import (
+    FALSE,
+    UNASKED,
+    Found,
+    average_precision,
+    judge,
+    mean_average_precision,
+)
 from navcore.training.foot_scores import foot_scores
 from navcore.training.samples import Labels
 
@@ -74,3 +81,21 @@ def test_feet_are_scored_in_pixels_and_ignored_objects_are_not_missed() -> None:
 def test_ignored_objects_that_are_found_do_not_hurt_precision() -> None:
     labels = truth(ignore=(False, False, True))
     assert foot_scores([found(BOXES, (0.9, 0.8, 0.7))], [labels]).precision == 1.0
+
+
+def test_a_foot_on_an_ignored_object_is_no_mistake_though_a_counted_one_stands_elsewhere() -> None:
+    labels = Labels(
+        boxes=np.array([[100.0, 50.0, 110.0, 90.0], [300.0, 50.0, 310.0, 90.0]]), kinds=np.array([0, 0]),
+        ignore=np.array([True, False]),
+    )  # fmt: skip
+    found = Found(boxes=labels.boxes + 1.0, confidence=np.array([0.9, 0.8]), kinds=np.array([0, 0]))
+    scores = foot_scores([found], [labels])
+    assert (scores.recall, scores.precision) == (1.0, 1.0)
+
+
+def test_a_box_about_the_seen_part_of_a_hidden_object_is_not_asked() -> None:
+    labels = Labels(
+        boxes=np.array([[100.0, 50.0, 110.0, 60.0]]), kinds=np.array([0]), ignore=np.array([True])
+    )  # fmt: skip
+    assert judge(np.array([[100.0, 20.0, 110.0, 90.0]]), labels, 0, 0.5).tolist() == [UNASKED]
+    assert judge(np.array([[130.0, 20.0, 140.0, 90.0]]), labels, 0, 0.5).tolist() == [FALSE]

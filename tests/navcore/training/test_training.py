@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,19 +13,22 @@ import torch
 from navcore.errors import InputError, ModelError
 from navcore.perception.onnx_detector import OnnxDetector, OnnxDetectorParams
 from navcore.training.augment import AugmentParams, augment
+from navcore.training.budget import Budget
 from navcore.training.evaluate import evaluate, table
 from navcore.training.export import export_onnx
-from navcore.training.loss import focal_loss
+from navcore.training.loss import LossParams, box_loss, focal_loss
 from navcore.training.model import FootNet, FootNetParams
+from navcore.training.pictures import Pictures, stack_labels
 from navcore.training.samples import Labels, read_samples
 from navcore.training.targets import targets
 from navcore.training.torch_detector import TorchDetector
 from navcore.training.trainer import Trainer, TrainerParams, load_net
 from tests.navcore.training.farm_pictures import draw_set
 
+CPU = torch.device("cpu")
 SMALL = TrainerParams(
-    epochs=2, batch=4, learning_rate=1e-2, net=FootNetParams(channels=(8, 8, 16, 16, 16)),
-    augment=AugmentParams(full_height_px=192),
+    epochs=2, batch=4, learning_rate=1e-2, device="cpu",
+    net=FootNetParams(channels=(8, 8, 16, 16, 16), depths=(0, 1, 1, 1)),
 )  # fmt: skip
 
 
@@ -49,7 +53,7 @@ def test_a_resumed_run_goes_on_where_it_stopped(pictures: Path, tmp_path: Path) 
     again = Trainer(tmp_path / "run", samples, samples[:2], SMALL)
     again.resume()
     again.run(lines.append)
-    assert [line[:9] for line in lines] == ["epoch 1/2", "epoch 2/2"]
+    assert [line[:8] for line in lines] == ["epoch 1 ", "epoch 2 "]
 
 
 def test_resuming_nothing_is_refused(pictures: Path, tmp_path: Path) -> None:
@@ -125,17 +129,61 @@ def test_a_box_that_is_not_finite_is_refused(pictures: Path) -> None:
 
 def test_the_target_is_one_at_the_foot_and_tells_where_in_the_cell_it_is() -> None:
     labels = Labels(boxes=np.array([[98.0, 21.0, 106.0, 61.0]]), kinds=np.array([1]), ignore=np.array([False]))
-    target = targets(labels, 96, 160)
-    assert target.heat.max() == target.heat[1, 15, 25] == 1.0
-    np.testing.assert_allclose(target.boxes[:, 15, 25], (0.0, -0.25, np.log(2.0), np.log(10.0)), atol=1e-6)
-    assert target.weight[15, 25] == 1.0
+    target = targets(stack_labels([labels], [1.0], CPU), 96, 160)
+    assert target.heat.max() == target.heat[0, 1, 15, 25] == 1.0
+    np.testing.assert_allclose(target.boxes[0, :, 15, 25], (0.0, -0.25, np.log(2.0), np.log(10.0)), atol=1e-6)
+    assert target.weight[0, 15, 25] == 1.0
+    np.testing.assert_allclose(target.boxes[0, :2, 14, 26], (-1.0, 0.75), atol=1e-6)
+    assert target.weight[0, 14, 26] == pytest.approx(0.3)
+    assert int((target.weight > 0).sum()) == 9
 
 
 def test_nothing_is_asked_around_an_ignored_object() -> None:
     labels = Labels(boxes=np.array([[98.0, 21.0, 106.0, 61.0]]), kinds=np.array([1]), ignore=np.array([True]))
-    target = targets(labels, 96, 160)
-    assert target.heat[:, 15, 25].tolist() == [-1.0, -1.0]
+    target = targets(stack_labels([labels], [1.0], CPU), 96, 160)
+    assert target.heat[0, :, 15, 25].tolist() == [-1.0, -1.0]
     assert target.weight.sum() == 0.0
+
+
+def test_of_two_objects_that_share_cells_each_keeps_its_own_and_the_nearer_one_the_others() -> None:
+    boxes = np.array([[96.0, 20.0, 108.0, 64.5], [100.0, 20.0, 112.0, 60.5]])
+    labels = Labels(boxes=boxes, kinds=np.array([0, 1]), ignore=np.array([False, False]))
+    target = targets(stack_labels([labels], [1.0], CPU), 96, 160)
+    assert target.boxes[0, :2, 16, 25].tolist() == pytest.approx([0.0, -0.375])
+    assert target.boxes[0, :2, 15, 26].tolist() == pytest.approx([0.0, -0.375])
+    assert target.boxes[0, :2, 15, 25].tolist() == pytest.approx([0.0, 0.625])
+
+
+def test_pictures_of_another_size_are_fitted_and_their_boxes_with_them(pictures: Path) -> None:
+    samples = read_samples(pictures)
+    images, labels = Pictures(samples, 384, 640, CPU).batch([3])
+    assert images.shape == (1, 3, 384, 640)
+    assert images[0, :, :, 512:].max() == 0
+    np.testing.assert_allclose(labels.boxes[0, :4], samples[3].labels.boxes * 2.0)
+    x1, _, x2, y2 = labels.boxes[0, 0].tolist()
+    inside, ground = images[0, :, int(y2) - 4, int((x1 + x2) / 2)].float(), images[0, :, 380, 4].float()
+    assert (inside - ground).abs().max() > 30
+
+
+def test_a_run_that_may_take_so_many_minutes_ends_by_then_with_a_low_learning_rate() -> None:
+    budget = Budget(steps=1000, minutes=1.0)
+    budget.resume(done=100, elapsed=45.0)
+    assert budget.fraction() == pytest.approx(0.75, abs=0.01)
+    assert budget.course() < 0.2
+    budget.resume(done=100, elapsed=61.0)
+    assert budget.spent()
+
+
+def test_a_device_that_is_not_there_is_refused(pictures: Path, tmp_path: Path) -> None:
+    samples = read_samples(pictures)
+    with pytest.raises(ModelError, match="no device 'abacus'"):
+        Trainer(tmp_path, samples, samples, replace(SMALL, device="abacus"))
+
+
+def test_the_box_loss_falls_as_boxes_come_to_overlap() -> None:
+    wanted, weight = torch.zeros(1, 4, 2, 2), torch.ones(1, 2, 2)
+    losses = [float(box_loss(torch.full((1, 4, 2, 2), off), wanted, weight, LossParams())) for off in (1.0, 0.3, 0.0)]
+    assert losses[0] > losses[1] > losses[2] == pytest.approx(0.0, abs=1e-6)
 
 
 def test_cells_that_are_not_asked_do_not_move_the_loss() -> None:
@@ -152,10 +200,15 @@ def test_boxes_follow_the_pixels_when_a_picture_is_cropped_scaled_and_mirrored()
     image = np.zeros((360, 640, 3), np.uint8)
     image[100:200, 300:320] = 255
     labels = Labels(boxes=np.array([[300.0, 100.0, 320.0, 200.0]]), kinds=np.array([0]), ignore=np.array([False]))
-    plain = AugmentParams(gain=1.0, gamma=1.0, noise=0.0, blur_share=0.0, foot_share=1.0, width_px=320, height_px=320)
-    for seed in range(6):
-        crop, moved = augment(image, labels, plain, np.random.default_rng(seed))
-        rows, columns = np.nonzero(crop[..., 0] > 128)
-        x1, y1, x2, y2 = np.clip(moved.boxes[0], 0, 320)
-        assert (columns.min(), rows.min()) == pytest.approx((x1, y1), abs=1.5)  # px
-        assert (columns.max() + 1, rows.max() + 1) == pytest.approx((x2, y2), abs=1.5)  # px
+    plain = AugmentParams(
+        gain=1.0, gamma=1.0, noise=0.0, fade=0.0, blur_share=0.0, foot_share=1.0, width_px=320, height_px=320
+    )
+    rng = torch.Generator().manual_seed(4)
+    tensor = torch.from_numpy(image).permute(2, 0, 1)[None].expand(8, -1, -1, -1)
+    crops, moved = augment(tensor, stack_labels([labels] * 8, [1.0] * 8, CPU), plain, rng)
+    for crop, box in zip(crops, moved.boxes, strict=True):
+        rows, columns = torch.nonzero(crop[0] > 0.5, as_tuple=True)
+        x1, y1, x2, y2 = box[0].clamp(0, 320).tolist()
+        assert (int(columns.min()), int(rows.min())) == pytest.approx((x1, y1), abs=1.5)  # px
+        assert (int(columns.max()) + 1, int(rows.max()) + 1) == pytest.approx((x2, y2), abs=1.5)  # px
+    assert len({tuple(box) for box in moved.boxes[:, 0].tolist()}) == 8
