@@ -36,6 +36,8 @@ class PilotParams:
         search: half width of the search for the place on the path, m.
         look_out: the camera is used from this far before a row's entry segment, m.
         drift_std: position 1-sigma at which GNSS tells how odometry drifts while the path is carried by it, m.
+        turned_to: by so much the robot may be turned away from the next row that it drives up to, rad, for the camera
+            to say where that row lies.
         end_std: 1-sigma of the row end's distance as the camera sees it, m.
         seen_range: plants further away say nothing sure about where the row ends, m.
         seen_share: share of the distance up to which the row is seen to go on that is believed: a camera that pitches
@@ -47,6 +49,7 @@ class PilotParams:
     search: float = 3.0
     look_out: float = 4.0
     drift_std: float = 0.05
+    turned_to: float = 0.35
     end_std: float = 0.4
     seen_range: float = 7.0
     seen_share: float = 0.9
@@ -146,11 +149,17 @@ class Pilot:
         expected = self._expected(T_odom_drive)
         if not self.row.judge(seen, row, expected, segment.corridor_width or 3.0):
             return
-        if self.mode in ON_CAMERA and seen.offset is not None and seen.heading is not None:
+        turned_to = self.mode is NavMode.HEADLAND and self._turned_to_row(row, T_odom_drive)
+        if (self.mode in ON_CAMERA or turned_to) and seen.offset is not None and seen.heading is not None:
             stds = seen.offset_std or 0.05, seen.heading_std or 0.02
             self.anchor.see_row(row, T_odom_drive, seen.offset, seen.heading, *stds)
         if self.mode in ALONG_ROW:
             self._see_along(seen, row, T_odom_drive, row_length(segment))
+
+    def _turned_to_row(self, row: RowLine, T_odom_drive: SE2) -> bool:
+        """Before the next row and turned to it: seen so, it puts right what the wheels got wrong in the turn."""
+        at = row.coordinates(self.anchor.T_map_odom @ T_odom_drive)
+        return at.x < 0.0 and abs(at.yaw) <= self.params.turned_to and self.row.streak >= self.params.mode.streak
 
     def _see_along(self, seen: RowObservation, row: RowLine, T_odom_drive: SE2, length: float) -> None:
         """Correct the place along the row by its end, or by its having none yet."""

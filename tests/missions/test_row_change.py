@@ -11,7 +11,7 @@ from navcore.maps.site_map import SiteMap
 from navcore.messages import NavMode, RunState
 from navcore.planning.mission_planner import mission_for_row
 from navcore.sim.world import WorldParams
-from tests.missions.conftest import Drive, new_drive
+from tests.missions.conftest import Drive, new_drive, off_line
 
 START_TO_ROW_S = 75.0
 
@@ -36,3 +36,12 @@ def test_robot_changes_rows_while_gnss_has_no_fix_at_all(farm: SiteMap) -> None:
     tick = drive.until_mode(NavMode.ROW)
     assert tick.decision.status.row_id == "r0"
     assert not any(tick.decision.status.gnss_quality == 4 for tick in drive.ticks[-50:])
+    assert max(abs(e) for e in _off_next_row(drive, before_entrance=2.0)) < 0.07  # m; the turn alone leaves 0.10
+
+
+def _off_next_row(drive: Drive, before_entrance: float) -> list[float]:
+    """True distances from the centre line of row r0 on the last metres before it, m; it is entered from its end."""
+    row = next(row for row in drive.lockstep.world.site.rows if row.id == "r0")
+    headland = [t for t in drive.ticks if t.decision.status.mode in (NavMode.HEADLAND, NavMode.ROW_ENTRY)]
+    turned = [t for t in headland[-len(headland) // 2 :] if t.truth.y < row.end[1] + before_entrance]
+    return [off_line(tick, row.start, row.end) for tick in turned]

@@ -72,7 +72,7 @@ def test_headland_is_turned_without_gnss_and_leads_into_the_next_row() -> None:
     turning = replace(LEFT_ROW, segment=SegmentKind.HEADLAND, gnss_std=1.5, gnss_streak=0)
     assert mode_after(NavMode.ROW_END, turning) is NavMode.HEADLAND
     assert mode_after(NavMode.HEADLAND, turning) is NavMode.HEADLAND
-    assert mode_after(NavMode.HEADLAND, replace(BEFORE_ROW, gnss_std=1.5)) is NavMode.ROW_ENTRY
+    assert mode_after(NavMode.HEADLAND, replace(BEFORE_ROW, to_start=1.9, gnss_std=1.5)) is NavMode.ROW_ENTRY
 
 
 def test_a_robot_stopped_before_the_last_plants_goes_on_to_the_end_unless_its_camera_is_silent() -> None:
@@ -101,8 +101,8 @@ def test_on_the_straight_the_row_is_not_left_while_the_camera_sees_its_end_ahead
 
 
 def test_out_of_a_turn_the_camera_takes_over_when_the_robot_has_come_straight() -> None:
-    assert mode_after(NavMode.HEADLAND, replace(BEFORE_ROW, to_start=2.9)) is NavMode.ROW_ENTRY
-    assert mode_after(NavMode.HEADLAND, replace(BEFORE_ROW, to_start=4.5)) is NavMode.HEADLAND
+    assert mode_after(NavMode.HEADLAND, replace(BEFORE_ROW, to_start=1.9)) is NavMode.ROW_ENTRY
+    assert mode_after(NavMode.HEADLAND, replace(BEFORE_ROW, to_start=3.5)) is NavMode.HEADLAND
 
 
 def test_reversing_out_begins_on_the_rear_camera() -> None:
