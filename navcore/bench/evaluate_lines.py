@@ -14,10 +14,10 @@ Ints = NDArray[np.int64]
 
 # Part of a road that is searched behind and ahead of the last match, m.
 _BEHIND, _AHEAD = 1.0, 4.0
-# Points of a neighbouring segment that belong to a piece: about a metre.
-_JOINT = 10
-# So far does the path go on straight where the robot turns back, m.
-_PROLONGED = 0.5
+# Points of a neighbouring segment that belong to a piece: about two metres, twice as far as a map may be off.
+_JOINT = 20
+# So far does the path go on straight where the robot turns back, m: it overshoots, and the map may be off.
+_PROLONGED = 1.5
 
 
 def row_frame(row: TrueRow, points: Floats) -> Floats:
@@ -44,7 +44,7 @@ def path_deviation(plan: MissionPlan, points: Floats, segments: Ints) -> Floats:
 
     `segments` (N,) tells which one was driven: a position is matched to that one alone, and on roads to the part
     that the last match leads to, so a part of the path that happens to pass nearby never counts. Where the robot
-    turns back the path goes on straight for half a metre, for to overshoot it is no error to the side.
+    turns back the path goes on straight for a metre and a half, for to overshoot it is no error to the side.
     """
     deviation, at = np.empty(len(points)), 0.0
     pieces = [_Piece(plan, k) for k in range(len(plan.segments))]
@@ -56,7 +56,7 @@ def path_deviation(plan: MissionPlan, points: Floats, segments: Ints) -> Floats:
 
 
 class _Piece:
-    """One segment, with a metre of its neighbours at either end, or a straight end where the robot turns back."""
+    """One segment, with some metres of its neighbours at either end, or a straight end where the robot turns back."""
 
     def __init__(self, plan: MissionPlan, k: int) -> None:
         own = np.asarray(plan.segments[k].points)

@@ -42,7 +42,7 @@ class PathAnchorParams:
 
     slide: float = 0.15
     slide_along: float = 0.3
-    patience: float = 0.20
+    patience: float = 0.35
     turn: float = 0.10
     slide_share: float = 0.3
     along_share: float = 0.5

@@ -167,7 +167,7 @@ class Driver:
     ) -> tuple[float, float]:
         """(v, omega) of `base_link`; a leg driven backwards only turns the sign of v."""
         sign = -1.0 if pilot.leg.reverse else 1.0
-        in_row = pilot.mode in ON_CAMERA
+        in_row = pilot.mode in ON_CAMERA or pilot.before_seen_row
         look_ahead = (
             row_look_ahead(speed, self.params.look_ahead) if in_row else gnss_look_ahead(self.params.look_ahead)
         )

@@ -36,7 +36,7 @@ class EventParams:
     gnss_stop_s: float = 2.8
     pose_std: float = 0.6
     carried: float = 30.0
-    entrance: float = 1.0
+    entrance: float = 1.5
     room: float = 0.12
     row_hold_s: float = 0.42
     hold_stop_s: float = 20.0

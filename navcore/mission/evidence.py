@@ -26,7 +26,7 @@ class RowEvidenceParams:
         looks_s: a picture older than that shows nothing of now, s.
     """
 
-    gate: float = 0.38
+    gate: float = 0.45
     heading_gate: float = 0.16
     width_gate: float = 0.3
     min_quality: float = 0.15

@@ -22,7 +22,7 @@ class ModeSelectorParams:
         seen_end_zone: the same where the camera has seen that end, m.
         again: a row seen to go on for more than this takes the robot back into it, m (hysteresis to `end_zone`).
         clear: distance past the row's end at which the row is left and GNSS may take over, m.
-        entry_zone: distance before the entrance from which the robot steers by the row that it has turned to, m.
+        carried: after so much on odometry alone GNSS takes over in a bend too, m.
         gnss_std: position 1-sigma at which GNSS may take over, m.
         gnss_streak: good epochs in a row before it does.
     """
@@ -33,7 +33,7 @@ class ModeSelectorParams:
     seen_end_zone: float = 4.0
     again: float = 5.0
     clear: float = 1.0
-    entry_zone: float = 2.0
+    carried: float = 15.0
     gnss_std: float = 0.12
     gnss_streak: int = 5
 
@@ -48,6 +48,8 @@ class ModeFacts:
         row_streak: consecutive observations that are valid and agree with the expected row.
         row_age_s: age of the last such observation, None if there was none.
         row_follows: the headland leads to another row: its place is known best from the row that is left.
+        straight: the path is straight here; in a bend a change of source is an error to the side.
+        carried: driven on odometry alone, m.
         turn_follows: the straight way out of the row goes over into a turn on the headland.
         looks: the camera shows pictures, whether there is a row in them or not.
         seen_end: distance ahead at which the camera sees the row end, None if it goes on.
@@ -60,6 +62,8 @@ class ModeFacts:
     to_end: float | None
     row_follows: bool
     turn_follows: bool
+    straight: bool
+    carried: float
     row_streak: int
     row_age_s: float | None
     looks: bool
@@ -84,10 +88,6 @@ def _row_trusted(f: ModeFacts, p: ModeSelectorParams) -> bool:
 
 def _near_row(f: ModeFacts) -> bool:
     return f.segment in (SegmentKind.ENTRY, SegmentKind.ROW) and f.to_end is not None and f.to_end > 0.0
-
-
-def _in_entry_zone(f: ModeFacts, p: ModeSelectorParams) -> bool:
-    return f.to_start is not None and f.to_start <= p.entry_zone
 
 
 def _inside(f: ModeFacts) -> bool:
@@ -128,7 +128,8 @@ def _left(f: ModeFacts, p: ModeSelectorParams) -> bool:
 
 
 def _clear(f: ModeFacts, p: ModeSelectorParams) -> bool:
-    return _left(f, p) and not f.row_follows and f.segment in (SegmentKind.EXIT, SegmentKind.ROAD)
+    here = f.segment in (SegmentKind.EXIT, SegmentKind.ROAD) and (f.straight or f.carried > p.carried)
+    return _left(f, p) and not f.row_follows and here
 
 
 def _turns(f: ModeFacts, p: ModeSelectorParams) -> bool:
@@ -155,12 +156,6 @@ SWITCHES: tuple[Switch, ...] = (
         frozenset({NavMode.GNSS_PATH}),
         NavMode.ROW_ENTRY,
         lambda f, p: _near_row(f) and _row_trusted(f, p),
-        _row_ahead,
-    ),
-    Switch(
-        frozenset({NavMode.HEADLAND}),
-        NavMode.ROW_ENTRY,
-        lambda f, p: _near_row(f) and _row_trusted(f, p) and _in_entry_zone(f, p),
         _row_ahead,
     ),
     Switch(

@@ -15,6 +15,7 @@ from navcore.messages import (
     NavMode,
     PathSegment,
     RowObservation,
+    SegmentKind,
 )
 from navcore.mission.evidence import RowEvidence, RowEvidenceParams
 from navcore.mission.mode_selector import ModeFacts, ModeSelectorParams, first_mode, select_mode
@@ -38,6 +39,7 @@ class PilotParams:
         drift_std: position 1-sigma at which GNSS tells how odometry drifts while the path is carried by it, m.
         turned_to: by so much the robot may be turned away from the next row that it drives up to, rad, for the camera
             to say where that row lies.
+        straight: metres before and behind the robot on which the path must not turn for GNSS to take over.
         end_std: 1-sigma of the row end's distance as the camera sees it, m.
         seen_range: plants further away say nothing sure about where the row ends, m.
         seen_share: share of the distance up to which the row is seen to go on that is believed: a camera that pitches
@@ -49,7 +51,8 @@ class PilotParams:
     search: float = 3.0
     look_out: float = 4.0
     drift_std: float = 0.05
-    turned_to: float = 0.35
+    turned_to: float = 0.7
+    straight: float = 2.0
     end_std: float = 0.4
     seen_range: float = 7.0
     seen_share: float = 0.9
@@ -74,6 +77,7 @@ class Pilot:
         self.place = Place(0, 0.0)
         self.pose = self.driving_pose(T_map_base)
         self.projection = self._project(near_s=None)
+        self.mode = NavMode.GNSS_PATH
         self.mode, self.mode_reason = first_mode(self._facts(start))
 
     @property
@@ -90,6 +94,21 @@ class Pilot:
     def remaining(self) -> float:
         """Metres to the end of the leg, by the path."""
         return self.leg.length - self.place.s
+
+    @property
+    def gnss_good(self) -> bool:
+        """GNSS could be driven on."""
+        return self._at.gnss_good(self.params.mode)
+
+    @property
+    def sees_row(self) -> bool:
+        """The row that matters here is seen in enough pictures to be trusted."""
+        return self.row.streak >= self.params.mode.streak
+
+    @property
+    def before_seen_row(self) -> bool:
+        """Between the turn on the headland and the entrance of the next row, which is seen."""
+        return self.mode is NavMode.HEADLAND and self.segment.kind is SegmentKind.ENTRY and self.sees_row
 
     @property
     def wheel_way(self) -> float:
@@ -153,13 +172,14 @@ class Pilot:
         if (self.mode in ON_CAMERA or turned_to) and seen.offset is not None and seen.heading is not None:
             stds = seen.offset_std or 0.05, seen.heading_std or 0.02
             self.anchor.see_row(row, T_odom_drive, seen.offset, seen.heading, *stds)
+            self.carried = 0.0
         if self.mode in ALONG_ROW:
             self._see_along(seen, row, T_odom_drive, row_length(segment))
 
     def _turned_to_row(self, row: RowLine, T_odom_drive: SE2) -> bool:
         """Before the next row and turned to it: seen so, it puts right what the wheels got wrong in the turn."""
         at = row.coordinates(self.anchor.T_map_odom @ T_odom_drive)
-        return at.x < 0.0 and abs(at.yaw) <= self.params.turned_to and self.row.streak >= self.params.mode.streak
+        return self.sees_row and at.x < 0.0 and abs(at.yaw) <= self.params.turned_to
 
     def _see_along(self, seen: RowObservation, row: RowLine, T_odom_drive: SE2, length: float) -> None:
         """Correct the place along the row by its end, or by its having none yet."""
@@ -249,6 +269,8 @@ class Pilot:
             to_end=row_length(segment) - along if segment is not None and along is not None else None,
             row_follows=self.leg.row_follows(self.place.s),
             turn_follows=self.leg.turn_follows(self.place.s),
+            straight=self.mode in CARRIED and self.leg.straight_at(self.place.s, self.params.straight),
+            carried=self.carried,
             row_streak=self.row.streak,
             row_age_s=self.row.age_s(at.now_ns),
             looks=self.row.looks(at.now_ns),

@@ -84,14 +84,16 @@ def event_facts(
 def _unseen_entrance(now: Situation) -> float | None:
     """Metres to the entrance of a row that the robot drives at without seeing it."""
     pilot = now.pilot
-    unseen = pilot is not None and pilot.mode in (NavMode.GNSS_PATH, NavMode.HEADLAND)
-    return pilot.to_start() if pilot is not None and unseen and pilot.segment.kind is SegmentKind.ENTRY else None
+    if pilot is None or pilot.segment.kind is not SegmentKind.ENTRY:
+        return None
+    unseen = pilot.mode in (NavMode.GNSS_PATH, NavMode.HEADLAND) and not pilot.before_seen_row
+    return pilot.to_start() if unseen else None
 
 
 def _room_at_entrance(now: Situation) -> float | None:
     """Metres between body and plants on the narrower side; None away from an entrance that is driven at on sight."""
     pilot = now.pilot
-    if pilot is None or pilot.mode is not NavMode.ROW_ENTRY or pilot.row.agreeing is None:
+    if pilot is None or pilot.mode not in (NavMode.ROW_ENTRY, NavMode.HEADLAND) or pilot.row.agreeing is None:
         return None
     ahead, seen = pilot.to_start(), pilot.row.agreeing
     if ahead is None or not 0.0 < ahead <= AT_ENTRANCE or seen.offset is None or seen.width is None:
@@ -102,4 +104,5 @@ def _room_at_entrance(now: Situation) -> float | None:
 def _waits_for_gnss(now: Situation) -> bool:
     """The row is left, the road begins, and GNSS is not good enough yet."""
     pilot = now.pilot
-    return bool(now.moving and pilot and pilot.mode in CARRIED and pilot.segment.kind is SegmentKind.ROAD)
+    on_road = pilot is not None and pilot.mode in CARRIED and pilot.segment.kind is SegmentKind.ROAD
+    return bool(now.moving and pilot and on_road and not pilot.gnss_good)

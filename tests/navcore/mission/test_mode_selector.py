@@ -10,8 +10,8 @@ from navcore.mission.mode_selector import ModeFacts, ModeSelectorParams, select_
 
 PARAMS = ModeSelectorParams()
 OPEN_ROAD = ModeFacts(
-    segment=SegmentKind.ROAD, to_start=None, to_end=None, row_follows=False, turn_follows=False, row_streak=0,
-    row_age_s=None, looks=True, seen_end=None, gnss_std=0.02, gnss_streak=100,
+    segment=SegmentKind.ROAD, to_start=None, to_end=None, row_follows=False, turn_follows=False, straight=True,
+    carried=0.0, row_streak=0, row_age_s=None, looks=True, seen_end=None, gnss_std=0.02, gnss_streak=100,
 )  # fmt: skip
 BEFORE_ROW = replace(OPEN_ROAD, segment=SegmentKind.ENTRY, to_start=3.0, to_end=63.0, row_streak=5, row_age_s=0.1)
 IN_ROW = replace(BEFORE_ROW, segment=SegmentKind.ROW, to_start=-30.0, to_end=30.0, gnss_std=1.5, gnss_streak=0)
@@ -72,7 +72,7 @@ def test_headland_is_turned_without_gnss_and_leads_into_the_next_row() -> None:
     turning = replace(LEFT_ROW, segment=SegmentKind.HEADLAND, gnss_std=1.5, gnss_streak=0)
     assert mode_after(NavMode.ROW_END, turning) is NavMode.HEADLAND
     assert mode_after(NavMode.HEADLAND, turning) is NavMode.HEADLAND
-    assert mode_after(NavMode.HEADLAND, replace(BEFORE_ROW, to_start=1.9, gnss_std=1.5)) is NavMode.ROW_ENTRY
+    assert mode_after(NavMode.HEADLAND, replace(IN_ROW, to_start=-0.1, gnss_std=1.5)) is NavMode.ROW
 
 
 def test_a_robot_stopped_before_the_last_plants_goes_on_to_the_end_unless_its_camera_is_silent() -> None:
@@ -85,6 +85,13 @@ def test_a_robot_stopped_before_the_last_plants_goes_on_to_the_end_unless_its_ca
 def test_on_the_way_to_the_next_row_gnss_does_not_move_the_path_off_the_row_just_left() -> None:
     assert mode_after(NavMode.ROW_END, LEFT_ROW) is NavMode.GNSS_PATH
     assert mode_after(NavMode.ROW_END, replace(LEFT_ROW, row_follows=True)) is NavMode.ROW_END
+
+
+def test_gnss_takes_over_on_the_straight_but_not_for_ever() -> None:
+    in_bend = replace(LEFT_ROW, segment=SegmentKind.ROAD, straight=False)
+    assert mode_after(NavMode.HEADLAND, in_bend) is NavMode.HEADLAND
+    assert mode_after(NavMode.HEADLAND, replace(in_bend, straight=True)) is NavMode.GNSS_PATH
+    assert mode_after(NavMode.HEADLAND, replace(in_bend, carried=16.0)) is NavMode.GNSS_PATH
 
 
 def test_the_row_is_left_on_the_straight_before_the_turn_and_not_in_it() -> None:
@@ -100,9 +107,10 @@ def test_on_the_straight_the_row_is_not_left_while_the_camera_sees_its_end_ahead
     assert mode_after(NavMode.ROW_END, replace(sees_more, row_age_s=4.0)) is NavMode.HEADLAND
 
 
-def test_out_of_a_turn_the_camera_takes_over_when_the_robot_has_come_straight() -> None:
-    assert mode_after(NavMode.HEADLAND, replace(BEFORE_ROW, to_start=1.9)) is NavMode.ROW_ENTRY
-    assert mode_after(NavMode.HEADLAND, replace(BEFORE_ROW, to_start=3.5)) is NavMode.HEADLAND
+def test_out_of_a_turn_the_camera_takes_over_at_the_entrance() -> None:
+    assert mode_after(NavMode.HEADLAND, replace(BEFORE_ROW, to_start=0.1)) is NavMode.HEADLAND
+    assert mode_after(NavMode.HEADLAND, replace(IN_ROW, to_start=-0.1)) is NavMode.ROW
+    assert mode_after(NavMode.HEADLAND, replace(IN_ROW, to_start=-0.1, row_streak=0)) is NavMode.HEADLAND
 
 
 def test_reversing_out_begins_on_the_rear_camera() -> None:
