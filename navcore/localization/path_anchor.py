@@ -85,6 +85,7 @@ class PathAnchor:
     """Ties `map` to `odom` by whichever source the robot drives on. Poses are of the driving frame.
 
     `put_back` are the metres by which rows have put the robot back, less those ahead: what the wheels told too many.
+    `row_heading` is the direction in `map` of the row seen last, rad: along and across it the variances are meant.
     """
 
     def __init__(self, T_map_odom: SE2, params: PathAnchorParams) -> None:
@@ -92,7 +93,7 @@ class PathAnchor:
         self.T_map_odom = T_map_odom
         self.followed = T_map_odom
         self.var_lateral = self.var_heading = self.var_along = 0.0
-        self.put_back = 0.0
+        self.put_back = self.row_heading = 0.0
         self.unsure()
 
     def unsure(self) -> None:
@@ -131,6 +132,7 @@ class PathAnchor:
         self, row: RowLine, T_odom_drive: SE2, offset: float, heading: float, offset_std: float, heading_std: float
     ) -> None:
         """Lay the drawn row onto the seen centre line (`offset`, `heading` as in RowObservation, at capture)."""
+        self.row_heading = row.heading
         at = row.coordinates(self.T_map_odom @ T_odom_drive)
         gain_lateral = self.var_lateral / (self.var_lateral + offset_std**2)
         gain_heading = self.var_heading / (self.var_heading + heading_std**2)

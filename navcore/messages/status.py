@@ -87,7 +87,9 @@ class NavStatus:
         progress: driven part of the mission, 0 to 1.
         remaining: metres to the mission's end.
         speed_limit: m/s after all regulation, with `speed_reason` naming the tightest cause.
+        pose: that the robot drives by: in a row, by what it sees of it, relative to the row as drawn.
         stop_reason: why the mission was stopped, kept until it goes on or is acknowledged; else empty.
+        gnss_pose: by GNSS, wheels and gyro alone; None in older logs too.
     """
 
     stamp_ns: int
@@ -115,3 +117,4 @@ class NavStatus:
     guard_reason: str
     events: tuple[ActiveEvent, ...]
     stop_reason: str = ""
+    gnss_pose: PoseEstimate | None = None

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from navcore.geometry.angles import wrap
 from navcore.messages import ActiveEvent, NavStatus
+from navcore.mission.driven_pose import driven_pose
 from navcore.mission.event_facts import EventFacts
 from navcore.mission.events import Event
 from navcore.mission.situation import Situation
@@ -62,7 +63,7 @@ def nav_status(now: Situation, now_ns: int, events: ActiveEvents) -> NavStatus:
         omega=s.pose.omega if s.pose else 0.0,
         speed_limit=now.driving.speed_limit,
         speed_reason=now.driving.speed_reason,
-        pose=s.pose,
+        pose=driven_pose(now),
         gnss_quality=s.gnss_quality,
         gnss_age_s=s.gnss.age_s(now_ns),
         row_age_s=pilot.row.age_s(now_ns) if pilot else None,
@@ -71,4 +72,5 @@ def nav_status(now: Situation, now_ns: int, events: ActiveEvents) -> NavStatus:
         guard_reason=chassis.guard_reason if chassis else "No word from the chassis.",
         events=events.on,
         stop_reason=events.stop_reason,
+        gnss_pose=s.pose,
     )

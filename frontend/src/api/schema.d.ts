@@ -1069,7 +1069,9 @@ export interface components {
          *         progress: driven part of the mission, 0 to 1.
          *         remaining: metres to the mission's end.
          *         speed_limit: m/s after all regulation, with `speed_reason` naming the tightest cause.
+         *         pose: that the robot drives by: in a row, by what it sees of it, relative to the row as drawn.
          *         stop_reason: why the mission was stopped, kept until it goes on or is acknowledged; else empty.
+         *         gnss_pose: by GNSS, wheels and gyro alone; None in older logs too.
          */
         NavStatus: {
             /** Battery V */
@@ -1078,6 +1080,7 @@ export interface components {
             events: components["schemas"]["ActiveEvent"][];
             /** Gnss Age S */
             gnss_age_s: number | null;
+            gnss_pose?: components["schemas"]["PoseEstimate"] | null;
             gnss_quality: components["schemas"]["FixQuality"];
             /** Guard */
             guard: string;

@@ -45,8 +45,8 @@ const side = (lateral: number | null | undefined) => (!lateral || Math.abs(later
 const lateralTone = (lateral: number | null | undefined): Tone | undefined =>
   lateral && Math.abs(lateral) > LATERAL_WARN ? "warn" : undefined;
 
-function gnssNote({ gnss_age_s, pose }: NavStatus): string {
-  return `position ±${accuracy(positionSigma(pose?.covariance))}, ${seconds(gnss_age_s)} old`;
+function gnssNote({ gnss_age_s, gnss_pose }: NavStatus): string {
+  return `position ±${accuracy(positionSigma(gnss_pose?.covariance))}, ${seconds(gnss_age_s)} old`;
 }
 
 const gnssTone = (s: NavStatus | null): Tone | undefined => (!s ? undefined : s.gnss_quality === 0 || (s.gnss_age_s ?? 9) > 1 ? "warn" : undefined);

@@ -8,11 +8,12 @@ const STATUS = {
   mode: "gnss_path",
   gnss_quality: 4,
   row_id: null,
-  pose: { covariance: [0.0004, 0, 0, 0, 0.0001, 0, 0, 0, 0.01] },
+  pose: { covariance: [4, 0, 0, 0, 4, 0, 0, 0, 0.01] },
+  gnss_pose: { covariance: [0.0004, 0, 0, 0, 0.0001, 0, 0, 0, 0.01] },
 } as unknown as NavStatus;
 
 describe("the headline says what the robot drives on", () => {
-  test("on GNSS, with quality and accuracy", () => expect(headline(STATUS)).toBe("Driving on GNSS — RTK fixed, 2 cm"));
+  test("on GNSS, with its own quality and accuracy", () => expect(headline(STATUS)).toBe("Driving on GNSS — RTK fixed, 2 cm"));
   test("in a row, by the row's own name", () =>
     expect(headline({ ...STATUS, mode: "row", row_id: "row-3" }, new Map([["row-3", "Apricots 3"]]))).toBe(
       "In Apricots 3 on the camera",

@@ -13,7 +13,7 @@ function drivingWords(status: NavStatus, names?: ReadonlyMap<string, string>): s
   const row = status.row_id ? rowWords(status.row_id, names) : "the row";
   switch (status.mode) {
     case "gnss_path":
-      return `Driving on GNSS — ${fixWords(status.gnss_quality)}, ${accuracy(positionSigma(status.pose?.covariance))}`;
+      return `Driving on GNSS — ${fixWords(status.gnss_quality)}, ${accuracy(positionSigma(status.gnss_pose?.covariance))}`;
     case "row_entry":
       return `Entering ${row}`;
     case "row":
