@@ -12,8 +12,8 @@ from navcore.messages import FixQuality
 
 Floats = NDArray[np.float64]
 
-X, Y, YAW, GYRO_BIAS, SPEED_SCALE, GNSS_EAST, GNSS_NORTH, ROW_SHIFT = range(8)
-STATES = 8
+X, Y, YAW, GYRO_BIAS, SPEED_SCALE, GNSS_EAST, GNSS_NORTH = range(7)
+STATES = 7
 
 
 @dataclass(slots=True)
@@ -21,23 +21,23 @@ class Belief:
     """Mean and covariance of the state, and the inputs that are held from the newest samples.
 
     State: x, y, yaw of `base_link` in `map` (m, rad); gyro bias (rad/s); relative error of the wheels' speed; slowly
-    changing error of GNSS east and north (m); lateral error of the row driven in as the site map has it (m).
+    changing error of GNSS east and north (m).
 
     Attributes:
-        mean: shape (8,).
-        cov: shape (8, 8).
+        mean: shape (7,).
+        cov: shape (7, 7).
         v_wheel, omega_wheel: newest wheel odometry.
         gyro: newest turn rate, its bias still in it.
         gyro_ns: when it was measured, None before the first.
         moved_ns: when the wheels turned last.
         quality: of the newest fix that was used; the GNSS error states belong to it.
+        slow: 1-sigma of that fix's slow error, m.
         fix_ns: capture time of the newest accepted fix.
         distance: driven since then, m.
         doubt_ns: capture time of the first of the fixes in a row that were rejected, None if the last was accepted.
         doubt: where those fixes lie relative to the belief, m east and north.
         agree_ns: since when those fixes agree with each other.
         heading_doubt_ns: as doubt_ns, for headings.
-        row: line that ROW_SHIFT belongs to: (x, y, yaw) in `map`.
     """
 
     stamp_ns: int
@@ -49,13 +49,13 @@ class Belief:
     gyro_ns: int | None = None
     moved_ns: int = 0
     quality: FixQuality = FixQuality.NONE
+    slow: float = 0.0
     fix_ns: int = 0
     distance: float = 0.0
     doubt_ns: int | None = None
     doubt: tuple[float, float] = (0.0, 0.0)
     agree_ns: int | None = None
     heading_doubt_ns: int | None = None
-    row: tuple[float, float, float] | None = None
 
     @property
     def position_std(self) -> float:
@@ -67,8 +67,8 @@ class Belief:
         """An independent belief. The constructor is much faster than copy.copy and dataclasses.replace."""
         return Belief(
             self.stamp_ns, self.mean.copy(), self.cov.copy(), self.v_wheel, self.omega_wheel, self.gyro, self.gyro_ns,
-            self.moved_ns, self.quality, self.fix_ns, self.distance, self.doubt_ns, self.doubt, self.agree_ns,
-            self.heading_doubt_ns, self.row,
+            self.moved_ns, self.quality, self.slow, self.fix_ns, self.distance, self.doubt_ns, self.doubt,
+            self.agree_ns, self.heading_doubt_ns,
         )  # fmt: skip
 
     def forget(self, states: list[int], stds: list[float]) -> None:

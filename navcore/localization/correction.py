@@ -14,7 +14,7 @@ class Innovation:
     """What a measurement says beyond what the belief foretold.
 
     Args:
-        H: Jacobian of the measurement, shape (k, 8), k is 1 or 2.
+        H: Jacobian of the measurement, shape (k, 7), k is 1 or 2.
         residual: measured minus foretold, shape (k,).
         R: covariance of the measurement's noise, shape (k, k).
     """

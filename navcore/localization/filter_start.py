@@ -11,7 +11,6 @@ from navcore.localization.belief import (
     GNSS_EAST,
     GNSS_NORTH,
     GYRO_BIAS,
-    ROW_SHIFT,
     SPEED_SCALE,
     STATES,
     YAW,
@@ -57,19 +56,18 @@ class FilterStart:
         mean = np.zeros(STATES)
         mean[[X, Y, YAW]] = east - c * ax + s * ay, north - s * ax - c * ay, yaw
         cov = np.zeros((STATES, STATES))
-        slow = self._noise.slow(fix.quality) ** 2
+        slow = self._noise.slow(fix)
         east_variance, north_variance = self._noise.white_variances(fix)
         lever = np.array((s * ax + c * ay, s * ay - c * ax))
-        cov[[X, Y], [X, Y]] = east_variance + slow, north_variance + slow
+        cov[[X, Y], [X, Y]] = east_variance + slow, north_variance + slow**2
         cov[:2, :2] += yaw_variance * np.outer(lever, lever)
         cov[:2, YAW] = cov[YAW, :2] = yaw_variance * lever
         cov[YAW, YAW] = yaw_variance
-        cov[[GNSS_EAST, GNSS_NORTH], [GNSS_EAST, GNSS_NORTH]] = slow
-        cov[[X, Y], [GNSS_EAST, GNSS_NORTH]] = cov[[GNSS_EAST, GNSS_NORTH], [X, Y]] = -slow
+        cov[[GNSS_EAST, GNSS_NORTH], [GNSS_EAST, GNSS_NORTH]] = slow**2
+        cov[[X, Y], [GNSS_EAST, GNSS_NORTH]] = cov[[GNSS_EAST, GNSS_NORTH], [X, Y]] = -(slow**2)
         cov[GYRO_BIAS, GYRO_BIAS] = self._p.bias_std**2
         cov[SPEED_SCALE, SPEED_SCALE] = self._p.scale_std**2
-        cov[ROW_SHIFT, ROW_SHIFT] = 1.0
-        return Belief(fix.stamp_ns, mean, cov, quality=fix.quality, fix_ns=fix.stamp_ns)
+        return Belief(fix.stamp_ns, mean, cov, quality=fix.quality, slow=slow, fix_ns=fix.stamp_ns)
 
     def _direction(self, fix: GnssFix, v_wheel: float, omega: float) -> tuple[float | None, float]:
         if fix.heading_rad is not None:

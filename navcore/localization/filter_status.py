@@ -17,7 +17,6 @@ class FilterStatus:
         quality: of the newest accepted fix.
         fix_age_s: since the capture of the newest accepted position, None before the first.
         heading_age_s: since the newest accepted heading or course, None before the first.
-        row_age_s: since the newest accepted row, None before the first.
         position_std: 1-sigma along the worst direction, m, None until ready.
         yaw_std: rad, None until ready.
         dead_reckoned: driven since the newest accepted position, m.
@@ -33,7 +32,6 @@ class FilterStatus:
     quality: FixQuality
     fix_age_s: float | None
     heading_age_s: float | None
-    row_age_s: float | None
     position_std: float | None
     yaw_std: float | None
     dead_reckoned: float

@@ -12,7 +12,7 @@ from navcore.localization.belief import GNSS_EAST, GNSS_NORTH, STATES, YAW, Beli
 from navcore.localization.correction import Innovation
 from navcore.localization.gnss_noise import GnssNoise
 from navcore.localization.verdict import Evidence, Verdict
-from navcore.messages import GnssFix
+from navcore.messages import FixQuality, GnssFix
 
 NS = 1e-9
 
@@ -79,10 +79,14 @@ class GnssCorrection:
         return self._doubt(b, fix, residual, R)
 
     def _take_quality(self, b: Belief, fix: GnssFix) -> None:
-        """Another quality is another solution of the receiver, with an error of its own."""
-        if fix.quality is not b.quality:
-            b.forget([GNSS_EAST, GNSS_NORTH], [self._noise.slow(fix.quality)] * 2)
-            b.quality = fix.quality
+        """A fix won or lost is another solution of the receiver, with an error of its own.
+
+        Other qualities share theirs, which the same leaves cause: a receiver that flickers between float and single
+        must not count as many.
+        """
+        before, b.quality, b.slow = b.quality, fix.quality, self._noise.slow(fix)
+        if fix.quality is not before and FixQuality.RTK_FIXED in (fix.quality, before):
+            b.forget([GNSS_EAST, GNSS_NORTH], [b.slow] * 2)
 
     def _position_jacobian(self, b: Belief) -> Floats:
         x, y = self.antenna(b)
@@ -115,7 +119,7 @@ class GnssCorrection:
             b.forget([YAW], [math.sqrt(self._noise.heading_variance(fix))])
             b.mean[YAW] = fix.heading_rad
             b.heading_doubt_ns = None
-        slow = self._noise.slow(fix.quality)
+        slow = self._noise.slow(fix)
         b.forget([X, Y, GNSS_EAST, GNSS_NORTH], [*np.sqrt(np.diag(R) + slow**2), slow, slow])
         b.mean[[X, Y]] = place
         self._trust(b, fix)
@@ -127,7 +131,7 @@ class GnssCorrection:
     def _heading(self, b: Belief, fix: GnssFix, heading: float) -> Verdict:
         variance = self._noise.heading_variance(fix)
         turn = wrap(heading - float(b.mean[YAW]))
-        if self._turn(b, turn, variance):
+        if self._turn(b, fix, turn, variance):
             b.heading_doubt_ns = None
             return Verdict(Evidence.HEADING, True)
         if b.heading_doubt_ns is None:
@@ -146,7 +150,7 @@ class GnssCorrection:
         assert fix.speed is not None
         yaw = wrap(fix.course_rad - self.drift_angle(b.v_wheel, omega))
         turn = wrap(yaw - float(b.mean[YAW]))
-        if self._turn(b, turn, self._noise.course_variance(fix.speed)):
+        if self._turn(b, fix, turn, self._noise.course_variance(fix.speed)):
             return Verdict(Evidence.COURSE, True)
         return Verdict(Evidence.COURSE, False, f"course is {abs(math.degrees(turn)):.0f} deg off the heading")
 
@@ -154,11 +158,12 @@ class GnssCorrection:
         """Direction in which the antenna moves, seen from the robot, rad; about pi in reverse."""
         return math.atan2(omega * self._p.antenna_x, v - omega * self._p.antenna_y)
 
-    def _turn(self, b: Belief, turn: float, variance: float) -> bool:
+    def _turn(self, b: Belief, fix: GnssFix, turn: float, variance: float) -> bool:
+        """Believed if near by its own variance; it counts for less where errors last."""
         H = np.zeros((1, STATES))
         H[0, YAW] = 1.0
-        innovation = Innovation(b, H, np.array((turn,)), np.array(((variance,),)))
-        if innovation.distance() > self._p.heading_gate:
+        residual, R = np.array((turn,)), np.array(((variance,),))
+        if Innovation(b, H, residual, R).distance() > self._p.heading_gate:
             return False
-        innovation.apply()
+        Innovation(b, H, residual, R * self._noise.direction_lasts(fix.quality) ** 2).apply()
         return True

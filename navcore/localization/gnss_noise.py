@@ -40,7 +40,9 @@ class GnssNoiseParams:
         tilt: m, 1-sigma of the antenna's sway on rough ground: antenna height times roll of about 1 deg.
         heading_std: rad, of a dual antenna that tells none.
         heading_floor: rad, no heading is better than this; `vague_heading_floor` none while the position is no RTK
-            fix: under leaves two antennas agree on a wrong direction for tens of seconds.
+            fix.
+        vague_lasts: under leaves two antennas, and velocities too, agree on a wrong direction for tens of seconds:
+            without an RTK fix, directions count as if their 1-sigma were wider by this; 1 to 12.
         course_speed_std: m/s, of a receiver's velocity across its direction.
     """
 
@@ -54,6 +56,7 @@ class GnssNoiseParams:
     heading_std: float = math.radians(1.0)
     heading_floor: float = math.radians(0.5)
     vague_heading_floor: float = math.radians(6.0)
+    vague_lasts: float = 5.0
     course_speed_std: float = 0.08
 
 
@@ -74,10 +77,11 @@ class GnssNoise:
         """Whether satellites stand behind a fix of this quality."""
         return quality in self._by_quality
 
-    def slow(self, quality: FixQuality) -> float:
-        """1-sigma of the slow error, m."""
-        noise = self._by_quality.get(quality)
-        return noise.slow if noise else 0.0
+    def slow(self, fix: GnssFix) -> float:
+        """1-sigma of the slow error, m: what stays is most of the error, so it is no less than the receiver tells."""
+        noise = self._by_quality.get(fix.quality)
+        told = max(fix.std_east_m or 0.0, fix.std_north_m or 0.0)
+        return max(noise.slow, told * self._p.told_factor) if noise else 0.0
 
     def decay(self, quality: FixQuality, dt: float) -> float:
         """What is left of the slow error after `dt` seconds, 0 to 1."""
@@ -94,6 +98,10 @@ class GnssNoise:
         std = self._p.heading_std if told is None else told * self._p.told_factor
         fixed = fix.quality is FixQuality.RTK_FIXED
         return max(std, self._p.heading_floor if fixed else self._p.vague_heading_floor) ** 2
+
+    def direction_lasts(self, quality: FixQuality) -> float:
+        """By how much wider the 1-sigma of directions weighs, as their errors last; 1 where they are new."""
+        return 1.0 if quality is FixQuality.RTK_FIXED else self._p.vague_lasts
 
     def course_variance(self, speed: float) -> float:
         """Variance of the course over ground at `speed` m/s, rad^2."""

@@ -18,7 +18,6 @@ from navcore.localization.belief import (
     GNSS_EAST,
     GNSS_NORTH,
     GYRO_BIAS,
-    ROW_SHIFT,
     SPEED_SCALE,
     STATES,
     YAW,
@@ -41,9 +40,8 @@ class MotionParams:
         gyro_scale_std: part of each turn that the gyro gets wrong; 0 to 0.05.
         bias_walk: rad/s/sqrt(s).
         scale_walk: of the wheels' speed, 1/sqrt(s).
-        along_noise, across_noise: slip, m/sqrt(m) driven.
+        along_noise, across_noise: slip, m/sqrt(m) driven; along the way it changes with ground and slope by percents.
         turn_slip: sideways motion per rad turned, m; skid steering scrubs.
-        shift_walk: of the site map's row against the true one, m/sqrt(m) driven.
         wheel_turn_ratio: what the wheels' turn rate is divided by where there is no gyro; `turn_track_ratio` of the
             vehicle.
         wheel_turn_std: 1-sigma of the rest as a part of the turn rate.
@@ -57,10 +55,9 @@ class MotionParams:
     gyro_scale_std: float = 0.01
     bias_walk: float = 1e-4
     scale_walk: float = 0.001
-    along_noise: float = 0.02
+    along_noise: float = 0.06
     across_noise: float = 0.015
     turn_slip: float = 0.02
-    shift_walk: float = 0.02
     wheel_turn_ratio: float = 1.6
     wheel_turn_std: float = 0.3
     gyro_timeout_s: float = 0.1
@@ -149,7 +146,7 @@ class MotionModel:
         F[GNSS_EAST, GNSS_EAST] = F[GNSS_NORTH, GNSS_NORTH] = decay
         b.mean[GNSS_EAST : GNSS_NORTH + 1] *= decay
         b.cov = F.dot(b.cov).dot(F.T)
-        renewed = self._gnss.slow(b.quality) ** 2 * (1.0 - decay * decay)
+        renewed = b.slow**2 * (1.0 - decay * decay)
         self._add_noise(b.cov, step, velocity.rate_density * dt, renewed)
 
     def _add_noise(self, cov: Floats, step: Step, turn_var: float, renewed: float) -> None:
@@ -163,7 +160,6 @@ class MotionModel:
         added[YAW] = turn_var + p.gyro_scale_std**2 * turned
         added[GYRO_BIAS], added[SPEED_SCALE] = p.bias_walk**2 * step.dt, p.scale_walk**2 * step.dt
         added[GNSS_EAST] = added[GNSS_NORTH] = renewed
-        added[ROW_SHIFT] = p.shift_walk**2 * metres
         cov.ravel()[:: STATES + 1] += added
 
     def _spread_unknown(self, b: Belief, dt: float) -> None:

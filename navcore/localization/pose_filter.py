@@ -1,4 +1,4 @@
-"""The pose filter: wheels and gyro carry the pose, GNSS and rows correct it, each at its time of capture."""
+"""The pose filter: wheels and gyro carry the pose, GNSS corrects it, each input at its time of capture."""
 
 from __future__ import annotations
 
@@ -18,10 +18,9 @@ from navcore.localization.filter_status import FilterStatus
 from navcore.localization.gnss_correction import GnssCorrection, GnssCorrectionParams
 from navcore.localization.gnss_noise import GnssNoise, GnssNoiseParams
 from navcore.localization.motion_model import MotionModel, MotionParams
-from navcore.localization.row_correction import RowCorrection, RowCorrectionParams
 from navcore.localization.standstill import learn_bias
 from navcore.localization.verdict import Evidence, Verdict
-from navcore.messages import FixQuality, GnssFix, ImuSample, PoseEstimate, RowObservation
+from navcore.messages import FixQuality, GnssFix, ImuSample, PoseEstimate
 
 NS = 1e-9
 
@@ -38,7 +37,6 @@ class PoseFilterParams:
     motion: MotionParams = field(default_factory=MotionParams)
     noise: GnssNoiseParams = field(default_factory=GnssNoiseParams)
     gnss: GnssCorrectionParams = field(default_factory=GnssCorrectionParams)
-    row: RowCorrectionParams = field(default_factory=RowCorrectionParams)
     start: FilterStartParams = field(default_factory=FilterStartParams)
     odometry: DeadReckoningParams = field(default_factory=DeadReckoningParams)
     history_s: float = 2.0
@@ -46,7 +44,7 @@ class PoseFilterParams:
 
 
 class PoseFilter:
-    """Extended Kalman filter over pose, gyro bias, wheel scale, slow GNSS error and row shift.
+    """Extended Kalman filter over pose, gyro bias, wheel scale and slow GNSS error.
 
     It takes no clock: all times come with the inputs. The same inputs in the same order give the same bits.
 
@@ -61,7 +59,6 @@ class PoseFilter:
         self._noise = noise
         self._motion = MotionModel(p.motion, noise)
         self._gnss = GnssCorrection(p.gnss, noise)
-        self._row = RowCorrection(p.row)
         self._start = FilterStart(p.start, p.gnss, noise)
         self._odometry = DeadReckoning(p.odometry)
         self._history = BeliefHistory(round(p.history_s / NS), self._motion.propagate)
@@ -126,14 +123,6 @@ class PoseFilter:
         if fix.quality is FixQuality.RTK_FIXED:  # headings under leaves are wrong for long, and the bias with them
             self._odometry.learn_bias(float(b.mean[GYRO_BIAS]))
 
-    def add_row(self, seen: RowObservation, line: SE2) -> None:
-        """A row seen by a camera; `line` is a point of its centre line in `map` and its direction, either way."""
-        numbers = (seen.offset, seen.heading, seen.offset_std, seen.heading_std, line.x, line.y, line.yaw)
-        if not self._is_sound(Evidence.ROW, seen.stamp_ns, numbers) or self._history.newest is None:
-            return
-        event = Event(seen.stamp_ns, lambda b: [self._row.apply(b, seen, line)])
-        self._count(self._history.add(event), seen.stamp_ns)
-
     def restart(self, reason: str) -> None:
         """Forget the pose and wait for a new position and heading, at an operator's word."""
         self._history.stop()
@@ -172,7 +161,6 @@ class PoseFilter:
             quality=belief.quality if belief else FixQuality.NONE,
             fix_age_s=(now_ns - belief.fix_ns) * NS if belief else None,
             heading_age_s=self._age(now_ns, Evidence.HEADING, Evidence.COURSE),
-            row_age_s=self._age(now_ns, Evidence.ROW),
             position_std=belief.position_std if belief else None,
             yaw_std=math.sqrt(belief.cov[YAW, YAW]) if belief else None,
             dead_reckoned=belief.distance if belief else 0.0,

@@ -12,7 +12,6 @@ class Evidence(StrEnum):
     POSITION = "position"
     HEADING = "heading"
     COURSE = "course"
-    ROW = "row"
     INPUT = "input"
 
 
