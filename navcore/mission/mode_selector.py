@@ -33,7 +33,7 @@ class ModeSelectorParams:
     seen_end_zone: float = 4.0
     again: float = 5.0
     clear: float = 1.0
-    carried: float = 15.0
+    carried: float = 22.0
     gnss_std: float = 0.12
     gnss_streak: int = 5
 

@@ -91,7 +91,7 @@ def test_gnss_takes_over_on_the_straight_but_not_for_ever() -> None:
     in_bend = replace(LEFT_ROW, segment=SegmentKind.ROAD, straight=False)
     assert mode_after(NavMode.HEADLAND, in_bend) is NavMode.HEADLAND
     assert mode_after(NavMode.HEADLAND, replace(in_bend, straight=True)) is NavMode.GNSS_PATH
-    assert mode_after(NavMode.HEADLAND, replace(in_bend, carried=16.0)) is NavMode.GNSS_PATH
+    assert mode_after(NavMode.HEADLAND, replace(in_bend, carried=23.0)) is NavMode.GNSS_PATH
 
 
 def test_the_row_is_left_on_the_straight_before_the_turn_and_not_in_it() -> None:
