@@ -14,6 +14,7 @@ from navcore.messages import Decision, NavInputs
 from navcore.recording.reader import read_decisions, read_inputs
 
 TICK_NS = 20_000_000
+BIN_NS = 200_000
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -62,8 +63,8 @@ def periods(record: LoopRecord) -> NDArray[np.float64]:
 def lateness(record: LoopRecord) -> NDArray[np.float64]:
     """How long after its due instant each tick began, s, (N,).
 
-    The due instants lie on a grid of one period; its phase is that of the promptest tick, which is the start of the
-    cluster of remainders. A tick that is late by more than a period is due at the first instant it missed.
+    The due instants lie on a grid of one period; its phase is that of the prompt ticks, see `_phase`. A tick that is
+    late by more than a period is due at the first instant it missed.
     """
     if len(record.tick_ns) == 0:
         return np.zeros(0)
@@ -78,10 +79,14 @@ def lateness(record: LoopRecord) -> NDArray[np.float64]:
 
 
 def _phase(ticks: NDArray[np.int64]) -> int:
-    """Where the widest gap between remainders ends."""
-    rest = np.unique(ticks % TICK_NS)
-    gaps = np.diff(np.append(rest, rest[0] + TICK_NS))
-    return int(rest[(int(np.argmax(gaps)) + 1) % len(rest)])
+    """Remainder of the promptest of the ticks that are on time: where most lie.
+
+    No tick is early, but one that is late by most of a period looks so; what lies well before most does not count.
+    """
+    rest = ticks % TICK_NS
+    usual = int(np.bincount(rest // BIN_NS).argmax()) * BIN_NS
+    around = (rest - usual + TICK_NS // 2) % TICK_NS - TICK_NS // 2
+    return (usual + int(around[around >= -BIN_NS].min())) % TICK_NS
 
 
 def exposure_to_frame(record: LoopRecord, frames: Sequence[MotionFrame]) -> NDArray[np.float64]:

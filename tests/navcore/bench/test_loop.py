@@ -19,8 +19,16 @@ def record(ticks: list[int], exposures: tuple[tuple[int, int], ...] = ()) -> Loo
 
 
 def test_lateness_is_counted_from_the_instant_that_was_due() -> None:
-    late_ms = np.random.default_rng(1).uniform(0.0, 6.0, 200)
+    rng = np.random.default_rng(1)
+    late_ms = np.where(rng.random(200) < 0.7, rng.uniform(0.0, 0.1, 200), rng.uniform(0.0, 12.0, 200))
     late_ms[0] = 0.0
+    ticks = [GRID_NS + k * TICK_NS + int(ms * MS) for k, ms in enumerate(late_ms)]
+    assert lateness(record(ticks)) * 1e3 == pytest.approx(late_ms, abs=0.01)  # ms
+
+
+def test_one_tick_that_is_late_by_most_of_a_period_makes_no_other_late() -> None:
+    late_ms = np.zeros(300)
+    late_ms[100], late_ms[200] = 17.0, 4.6
     ticks = [GRID_NS + k * TICK_NS + int(ms * MS) for k, ms in enumerate(late_ms)]
     assert lateness(record(ticks)) * 1e3 == pytest.approx(late_ms, abs=0.01)  # ms
 
