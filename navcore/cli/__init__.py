@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import typer
 
-from navcore.cli import dataset, evaluate, replay, run, train
+from navcore.cli import dataset, evaluate, replay, run, see, train
 from navcore.cli.bench import bench_app
 from navcore.cli.decode import decode_app
 
@@ -18,6 +18,7 @@ evaluate.register(app)
 train.register(app)
 run.register(app)
 replay.register(app)
+see.register(app)
 
 
 @app.callback()
