@@ -32,10 +32,11 @@ def drawn(image: Image, record: dict[str, Any]) -> Image:
 
 
 def _words(canvas: Image, text: str, thick: int) -> None:
-    size = 0.45 * thick + 0.1
-    place = (6 * thick, round(canvas.shape[0] - 8 * thick))
-    cv2.putText(canvas, text, place, cv2.FONT_HERSHEY_SIMPLEX, size, (0, 0, 0), 3 * thick, cv2.LINE_AA)
-    cv2.putText(canvas, text, place, cv2.FONT_HERSHEY_SIMPLEX, size, (255, 255, 255), thick, cv2.LINE_AA)
+    """White on a dark bar along the lower edge."""
+    bar = 18 * thick
+    canvas[-bar:] = canvas[-bar:] // 4
+    place = (4 * thick, canvas.shape[0] - 5 * thick)
+    cv2.putText(canvas, text, place, cv2.FONT_HERSHEY_SIMPLEX, 0.45 * thick, (255, 255, 255), thick, cv2.LINE_AA)
 
 
 class Drawings:

@@ -62,6 +62,12 @@ def seen(*arguments: object) -> list[dict[str, Any]]:
     return records
 
 
+def pixels(path: Path) -> np.ndarray:
+    image = cv2.imread(str(path))
+    assert image is not None
+    return np.asarray(image)
+
+
 def direction(line: list[list[float]]) -> float:
     """Of an image line, deg in [0, 180)."""
     (u0, v0), (u1, v1) = line
@@ -97,8 +103,8 @@ def test_a_folder_is_all_its_pictures_and_each_is_drawn(folder: Path, tmp_path: 
     assert "row.png: row, quality" in result.stdout
     assert "sky.png: no row" in result.stdout
     assert sorted(p.name for p in tmp_path.iterdir()) == ["black.jpg", "row.jpg", "sky.jpg"]
-    before, after = cv2.imread(str(folder / "row.png")), cv2.imread(str(tmp_path / "row.jpg"))
-    assert np.abs(before.astype(int) - after).max() > 150
+    change = pixels(folder / "row.png").astype(int) - pixels(tmp_path / "row.jpg")
+    assert np.abs(change).max() > 150
 
 
 def test_pictures_of_the_same_name_do_not_overwrite_each_other(folder: Path, tmp_path: Path) -> None:
@@ -111,7 +117,7 @@ def test_pictures_of_the_same_name_do_not_overwrite_each_other(folder: Path, tmp
 
 
 def test_a_video_is_looked_at_frame_by_frame_and_drawn_as_a_video(folder: Path, tmp_path: Path) -> None:
-    picture = cv2.imread(str(folder / "row.png"))
+    picture = pixels(folder / "row.png")
     writer = cv2.VideoWriter(str(tmp_path / "drive.avi"), cv2.VideoWriter.fourcc(*"MJPG"), 5.0, (640, 360))
     for _ in range(3):
         writer.write(picture)
