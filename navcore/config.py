@@ -16,6 +16,7 @@ from navcore.geometry.pinhole import robot_camera
 from navcore.maps.site_map import Datum
 from navcore.messages import CameraName
 from navcore.navigator import Navigator, NavigatorParams
+from navcore.perception.detector import DetectorParams
 from navcore.perception.row_perception import RowPerceptionParams
 from navcore.vehicle import PROFILES, VehicleParams
 
@@ -27,11 +28,13 @@ class RobotConfig:
     Attributes:
         vehicle: name of a profile in `vehicle.PROFILES`.
         front_camera, rear_camera: of a real robot; a simulated one has paper A's.
+        detector: of trunks and posts.
     """
 
     vehicle: str = "paper_a"
     front_camera: CameraParams = field(default_factory=CameraParams)
     rear_camera: CameraParams = field(default_factory=lambda: CameraParams(mount=robot_camera(rear=True)))
+    detector: DetectorParams = field(default_factory=DetectorParams)
     navigator: NavigatorParams = field(default_factory=NavigatorParams)
     perception: RowPerceptionParams = field(default_factory=RowPerceptionParams)
 

@@ -60,10 +60,12 @@ def _settings(port: int | None, data: Path | None, *, simulated: bool) -> Settin
 def _run(settings: Settings, can: str | None, gnss: str | None, config: Path | None, simulation: str) -> None:
     from navcore.cli.first_farm import beginning_farm
     from navcore.config import load_config
+    from navcore.perception.detector_choice import new_detector
     from navcore.runtime.supervisor import Supervisor
 
     if config is not None:
-        load_config(config)  # each process reads it for itself: what is wrong with it is said before any begins
+        # Each process reads it for itself: what is wrong with it is said before any begins.
+        new_detector(load_config(config).detector)
     settings.data_dir.mkdir(parents=True, exist_ok=True)
     farm = beginning_farm(settings)
     robot = (

@@ -103,11 +103,12 @@ def _told_sight(settings: Path) -> Sight:
     from navcore.config import load_config
     from navcore.drivers.camera_capture import rectification
     from navcore.messages import CameraName
-    from navcore.perception.onnx_detector import OnnxDetector
-    from navcore.perception.row_perception import RowPerception, RowPerceptionParams
+    from navcore.perception.detector_choice import new_detector
+    from navcore.perception.row_perception import RowPerception
 
-    camera = load_config(settings).front_camera
-    perception = RowPerception(camera.mount, OnnxDetector(), RowPerceptionParams())
+    config = load_config(settings)
+    camera = config.front_camera
+    perception = RowPerception(camera.mount, new_detector(config.detector), config.perception)
     straighten = rectification(camera)
 
     def sight(frame: Frame) -> dict[str, Any]:

@@ -2,14 +2,28 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
 from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from navcore.messages import DetectedObject
+from navcore.messages import DetectedObject, ObjectKind
 
 Image = NDArray[np.uint8]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DetectorParams:
+    """Attributes:
+    weights: ONNX file; empty for the shipped one.
+    classes: of a YOLO model: which of its classes, counted from 0, are trunks and posts. Empty for our own network.
+    threshold: least confidence, 0 to 1.
+    """
+
+    weights: str = ""
+    classes: dict[ObjectKind, tuple[int, ...]] = field(default_factory=dict)
+    threshold: float = 0.3
 
 
 class Detector(Protocol):

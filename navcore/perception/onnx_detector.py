@@ -37,7 +37,7 @@ class OnnxDetector:
         """Raises ModelError with a sentence for a file that is missing, broken, or another model."""
         path = params.weights or WEIGHTS
         self._decoding = params.decoding
-        self._session = _session(path)
+        self._session = open_model(path)
         self._input, self._height, self._width = _input_size(self._session, path)
         self._stride = _stride(self._session, self._width, path)
 
@@ -62,7 +62,8 @@ class OnnxDetector:
         return blob
 
 
-def _session(path: Path) -> Any:
+def open_model(path: Path) -> Any:
+    """A session on one thread. Raises ModelError with a sentence for a file that is missing or broken."""
     if not path.is_file():
         raise ModelError(f"There is no detector at {path}; train one with `rowpilot train` or restore the file.")
     options = ort.SessionOptions()

@@ -11,7 +11,7 @@ from navcore.drivers.camera_capture import CameraCapture, Picture
 from navcore.geometry.pinhole import PinholeCamera
 from navcore.messages import CameraName
 from navcore.perception.detector import Detector
-from navcore.perception.onnx_detector import OnnxDetector
+from navcore.perception.detector_choice import new_detector
 
 # The longest wait for a picture; a camera of 10 Hz or more has one by then.
 PATIENCE_S = 0.1
@@ -23,6 +23,7 @@ class RealCameras:
     def __init__(self, config: RobotConfig) -> None:
         cameras = config.cameras()
         self.mounts: Mapping[CameraName, PinholeCamera] = {name: c.mount for name, c in cameras.items()}
+        self._detector = new_detector(config.detector)
         self._captures = {n: CameraCapture(c, time.monotonic_ns) for n, c in cameras.items() if c.source}
         self._last_ns = dict.fromkeys(cameras, 0)
         self._told: dict[CameraName, str] = {}
@@ -31,7 +32,7 @@ class RealCameras:
 
     def detectors(self) -> Mapping[CameraName, Detector]:
         """See `Cameras`."""
-        return dict.fromkeys(self.mounts, OnnxDetector())
+        return dict.fromkeys(self.mounts, self._detector)
 
     def take(self, camera: CameraName) -> Picture | None:
         """See `Cameras`."""

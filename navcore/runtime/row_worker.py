@@ -114,7 +114,7 @@ def _cameras(endpoints: Endpoints, site: Path, simulation: str | None, config: R
         return RealCameras(config)
     params = msgspec.json.decode(simulation, type=SimulationParams)
     orchard = params.world(read_site(site), config.vehicle_params(), 0).orchard
-    return SimulatedCameras(endpoints, orchard, params)
+    return SimulatedCameras(endpoints, orchard, params, config.detector)
 
 
 if __name__ == "__main__":

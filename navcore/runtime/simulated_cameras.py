@@ -10,8 +10,8 @@ import numpy as np
 from navcore.drivers.camera_capture import Picture
 from navcore.geometry.pinhole import PinholeCamera
 from navcore.messages import CameraName, SimTruth
-from navcore.perception.detector import Detector
-from navcore.perception.onnx_detector import OnnxDetector
+from navcore.perception.detector import Detector, DetectorParams
+from navcore.perception.detector_choice import new_detector
 from navcore.runtime.simulation import DetectorKind, SimulationParams
 from navcore.sim.camera_renderer import CameraRenderer, Scene
 from navcore.sim.orchard import Orchard
@@ -27,7 +27,9 @@ MS = 1_000_000
 class SimulatedCameras:
     """Both cameras. Their detector sees pixels, or if so chosen boxes from the truth with a detector's faults."""
 
-    def __init__(self, endpoints: Endpoints, orchard: Orchard, params: SimulationParams) -> None:
+    def __init__(
+        self, endpoints: Endpoints, orchard: Orchard, params: SimulationParams, detector: DetectorParams
+    ) -> None:
         light = params.light_params()
         scene = Scene(orchard, light)
         self.mounts: Mapping[CameraName, PinholeCamera] = params.mounts()
@@ -35,7 +37,7 @@ class SimulatedCameras:
         cameras = self.mounts
         self._renderers = {n: CameraRenderer(orchard, c, light, scene=scene) for n, c in cameras.items()}
         self._latency_ns = params.camera_latency_ms * MS
-        self._frames = 0
+        self._frames, self._detector = 0, detector
         self._truth: SimTruth | None = None
         self._knowing: dict[CameraName, ProjectedObjects] = {}
         if params.detector is DetectorKind.TRUTH:
@@ -43,11 +45,10 @@ class SimulatedCameras:
             self._knowing = {n: ProjectedObjects(orchard, c, faults, rng) for n, c in cameras.items()}
 
     def detectors(self) -> dict[CameraName, Detector]:
-        """What finds trunks and posts. Raises ModelError if the shipped one is missing."""
+        """What finds trunks and posts. Raises ModelError if the one that is set cannot be used."""
         if self._knowing:
             return dict(self._knowing)
-        shipped = OnnxDetector()
-        return dict.fromkeys(self._renderers, shipped)
+        return dict.fromkeys(self._renderers, new_detector(self._detector))
 
     def take(self, camera: CameraName) -> Picture | None:
         """The picture from where the robot truly is, once the camera's latency has passed. None without a truth."""
