@@ -185,21 +185,27 @@ class PathAnchor:
     def _set(self, T_map_drive: SE2, T_odom_drive: SE2) -> None:
         self.T_map_odom = T_map_drive @ T_odom_drive.inverse()
 
-    def slide(self, T_odom_drive: SE2, dt: float, driven: float, lateral_error: float = 0.0) -> SE2:
+    def slide(
+        self, T_odom_drive: SE2, dt: float, driven: float, heading: float, lateral_error: float = 0.0
+    ) -> SE2:  # fmt: skip
         """Move the followed tie towards the wanted one, `dt` seconds and `driven` metres after the last time.
 
+        `heading` is the path's direction here in `map`, rad: what is sideways and what is along is the path's, not
+        that of a robot that swings about it, or a place put back by a metre pulls a turned robot off its line.
         `lateral_error` is the robot's distance from its path now, positive on its left. Returns the followed pose of
         the driving frame.
         """
-        at = self.followed @ T_odom_drive
-        off = at.inverse() @ self.T_map_odom @ T_odom_drive
+        at, wanted = self.followed @ T_odom_drive, self.T_map_odom @ T_odom_drive
+        c, s = math.cos(heading), math.sin(heading)
+        dx, dy = wanted.x - at.x, wanted.y - at.y
         p, d = self.params, abs(driven)
-        aside = self._patience(off.y, lateral_error) * min(p.slide * dt, p.slide_share * d)
+        sideways = c * dy - s * dx
+        aside = self._patience(sideways, lateral_error) * min(p.slide * dt, p.slide_share * d)
         # In a bend what slides along the path becomes an error to the side.
         ahead = max(1.0 - abs(lateral_error) / p.patience, 0.0) * min(p.slide_along * dt, p.along_share * d)
-        turn = min(p.turn * dt, p.turn_share * d)
-        step = SE2(_within(off.x, ahead), _within(off.y, aside), _within(off.yaw, turn))
-        pose = at @ step
+        along, across = _within(c * dx + s * dy, ahead), _within(sideways, aside)
+        turn = _within(wrap(wanted.yaw - at.yaw), min(p.turn * dt, p.turn_share * d))
+        pose = SE2(at.x + c * along - s * across, at.y + s * along + c * across, wrap(at.yaw + turn))
         self.followed = pose @ T_odom_drive.inverse()
         return pose
 

@@ -125,7 +125,10 @@ class Pilot:
             self._see(seen, self.driving_pose(T_odom_base))
         if self.mode is NavMode.GNSS_PATH and at.T_map_base is not None:
             self.anchor.follow(at.T_map_base @ at.T_odom_base.inverse())
-        self.pose = self.anchor.slide(self.driving_pose(at.T_odom_base), dt, driven, self.projection.lateral)
+        heading = self.leg.line.heading_at(self.place.s)
+        self.pose = self.anchor.slide(
+            self.driving_pose(at.T_odom_base), dt, driven, heading, self.projection.lateral
+        )  # fmt: skip
         self.projection = self._project(self.place.s)
         self.captured = self.captured or abs(self.projection.lateral) <= self.params.capture
         self.place = Place(self.place.leg, self.projection.s)

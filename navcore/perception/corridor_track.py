@@ -31,6 +31,8 @@ class CorridorTrackerParams:
             metre driven; `turn_slip` is the share of a turn by which odometry may be wrong.
         min_objects: fewer do not start a track.
         one_side_objects: so many on one side start a track where a `RowPrior` is given, the other side unseen.
+        sure_std, sure_objects: so many start one where the prior is as certain as that, m: the last plants of a row,
+            or those between two gaps.
         max_offset_std, max_heading_std_deg: a row less certain than that is not shown.
         carry: so far a row is carried without any evidence, m.
         lost_share, lost_frames: a track that explains less than that share of the near objects in so many pictures
@@ -57,6 +59,8 @@ class CorridorTrackerParams:
     turn_slip: float = 0.2
     min_objects: int = 4
     one_side_objects: int = 3
+    sure_std: float = 0.2
+    sure_objects: int = 2
     max_offset_std: float = 0.22
     max_heading_std_deg: float = 4.0
     carry: float = 1.0

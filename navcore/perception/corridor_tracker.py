@@ -90,6 +90,8 @@ class CorridorTracker:
             return ""
         if prior is not None and prior.width is not None and max(left, right) >= self._params.one_side_objects:
             return ""
+        if prior is not None and prior.std <= self._params.sure_std and left + right >= self._params.sure_objects:
+            return ""
         if objects < self._params.min_objects:
             return f"only {objects} trunk{'s' if objects > 1 else ''} or posts in sight"
         return "the trunks and posts in sight do not form a row"

@@ -76,14 +76,18 @@ def test_what_stands_beyond_the_row_cannot_hold_the_robot_for_ever() -> None:
     assert ROW.coordinates(anchor.T_map_odom @ odom).x == pytest.approx(x - 6.0)  # m: 12 % of 50
 
 
-@given(st.floats(-2, 2), st.floats(-2, 2), st.floats(-1, 1), st.floats(0.005, 0.1), st.floats(0.0, 0.1))
-def test_followed_pose_never_jumps(dx: float, dy: float, turn: float, dt: float, driven: float) -> None:
+@given(
+    st.floats(-2, 2), st.floats(-2, 2), st.floats(-1, 1), st.floats(0.005, 0.1), st.floats(0.0, 0.1), st.floats(-3, 3)
+)
+def test_followed_pose_never_jumps(
+    dx: float, dy: float, turn: float, dt: float, driven: float, heading: float
+) -> None:  # fmt: skip
     anchor, odom = anchored(), SE2(8.0, 3.0, 0.25)
     before = anchor.followed @ odom
     anchor.follow(SE2(2.0 + dx, 1.0 + dy, 0.1 + turn))
-    after = anchor.slide(odom, dt, driven)
+    after = anchor.slide(odom, dt, driven, heading)
     params = anchor.params
-    moved = before.inverse() @ after
+    moved = SE2(before.x, before.y, heading).inverse() @ after
     assert abs(moved.y) <= min(params.slide * dt, params.slide_share * driven) + 1e-9
     assert abs(moved.x) <= min(params.slide_along * dt, params.along_share * driven) + 1e-9
     assert abs(after.yaw - before.yaw) <= min(params.turn * dt, params.turn_share * driven) + 1e-9
@@ -93,9 +97,21 @@ def test_followed_pose_arrives() -> None:
     anchor, odom = anchored(), SE2(8.0, 3.0, 0.25)
     anchor.follow(SE2(2.5, 1.0, 0.15))
     for _ in range(500):
-        pose = anchor.slide(odom, 0.02, 0.01)
+        pose = anchor.slide(odom, 0.02, 0.01, 0.3)
     wanted = anchor.T_map_odom @ odom
     assert (pose.x, pose.y, pose.yaw) == pytest.approx((wanted.x, wanted.y, wanted.yaw), abs=1e-6)
+
+
+def test_a_place_put_back_along_the_row_does_not_pull_a_turned_robot_off_its_line() -> None:
+    anchor, odom = anchored(), SE2(8.0, 3.0, 0.45)
+    before = ROW.coordinates(anchor.followed @ odom)
+    assert abs(before.yaw) > 0.1  # rad
+    anchor.drive(20.0)
+    anchor.see_no_end(ROW, odom, at_most=before.x - 1.0)
+    for _ in range(100):
+        now = ROW.coordinates(anchor.slide(odom, 0.02, 0.01, ROW.heading))
+        assert now.y == pytest.approx(before.y, abs=1e-9)  # m
+    assert now.x < before.x - 0.3
 
 
 def test_a_row_end_far_from_where_it_can_be_is_not_believed() -> None:
@@ -133,5 +149,5 @@ def test_the_path_waits_for_a_robot_that_does_not_follow() -> None:
     anchor.follow(wanted @ odom.inverse())
     for _ in range(500):
         lateral = (before.inverse() @ anchor.followed @ odom).y
-        anchor.slide(odom, 0.02, 0.01, lateral)
+        anchor.slide(odom, 0.02, 0.01, before.yaw, lateral)
     assert (before.inverse() @ anchor.followed @ odom).y <= anchor.params.patience  # m

@@ -106,6 +106,24 @@ def test_two_trunks_are_no_row() -> None:
     assert (row.valid, row.reason) == (False, "only 2 trunks or posts in sight")
 
 
+@pytest.mark.parametrize(("std", "seen"), [(0.15, True), (0.4, False)])
+def test_two_trunks_are_a_row_where_it_is_known_well_already(std: float, seen: bool) -> None:
+    """The last plants of a row that was followed until a gap."""
+    told = Told(boxes_at(FRONT, np.array([[5.0, 1.4], [4.0, -1.6]])))
+    prior = RowPrior(offset=-0.1, heading=0.0, std=std, width=3.0)
+    perception = RowPerception(FRONT, told, RowPerceptionParams())
+    row = perception.process(picture(FRONT), 0, CameraName.FRONT, prior=prior).row
+    assert row.valid is seen
+    assert row.offset is None or row.offset == pytest.approx(-0.1, abs=0.1)  # m
+
+
+def test_two_trunks_off_a_well_known_row_are_none() -> None:
+    told = Told(boxes_at(FRONT, np.array([[5.0, 0.5], [4.0, 0.2]])))
+    prior = RowPrior(offset=0.0, heading=0.0, std=0.15, width=3.0)
+    perception = RowPerception(FRONT, told, RowPerceptionParams())
+    assert not perception.process(picture(FRONT), 0, CameraName.FRONT, prior=prior).row.valid
+
+
 def test_trunks_anywhere_are_no_row() -> None:
     feet = np.array([[3.0, 0.0], [4.2, 0.4], [5.5, -0.5], [7.0, 0.3], [8.5, -0.4]])
     told = Told(boxes_at(FRONT, feet))
