@@ -33,6 +33,12 @@ def _on_gnss(f: EventFacts) -> bool:
     return f.mode is NavMode.GNSS_PATH
 
 
+def _by_row(f: EventFacts) -> bool:
+    """In the middle of a mission, where the row or odometry tells where the robot is and GNSS does not."""
+    amid = f.state in UNDER_WAY or f.state is RunState.STOPPED
+    return amid and f.mode not in (NavMode.GNSS_PATH, NavMode.IDLE)
+
+
 def _moving(f: EventFacts) -> bool:
     return f.state in (RunState.DRIVING, RunState.HOLDING)
 
@@ -125,7 +131,7 @@ EVENTS: tuple[Event, ...] = (
     ),
     _event(
         "position_unsure", "NO_ENTRY",
-        lambda f, p: f.pose_std is not None and not f.pose_std <= p.pose_std,
+        lambda f, p: f.pose_std is not None and not f.pose_std <= p.pose_std and not _by_row(f),
         lambda f: f"The position is only known to {f.pose_std or 0:.1f} m. Wait for an RTK fix.",
     ),
     _event(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -11,7 +12,8 @@ from navcore.maps.site_map import SiteMap
 from navcore.messages import NavMode, RequestKind, RunState
 from navcore.planning.mission_planner import mission_for_row
 from navcore.runtime.lockstep import Tick
-from tests.missions.conftest import Drive
+from navcore.sim.world import WorldParams
+from tests.missions.conftest import Drive, new_drive
 
 Park = Callable[[int], Drive]
 
@@ -66,6 +68,27 @@ def test_a_stopped_mission_is_resumed_only_by_a_deliberate_request(park: Park, f
     drive.ask(RequestKind.RESUME)
     tick = drive.until(lambda tick: tick.truth.v > 0.3, seconds=10)
     assert tick.truth.v > 0.3  # m/s
+
+
+def test_a_robot_stopped_in_a_row_where_gnss_knows_nothing_can_go_on(farm: SiteMap) -> None:
+    params = WorldParams(seed=4)
+    drive = new_drive(farm, replace(params, gnss=replace(params.gnss, outages_s=((75.0, 400.0),))))
+    drive.start(farm, mission_for_row(farm, "r1", RowExit.REVERSE))
+    drive.until_mode(NavMode.ROW)
+    vague = drive.until(lambda tick: gnss_std(tick) > 0.64, seconds=120)
+    assert gnss_std(vague) > 0.64  # m
+    assert vague.decision.status.mode is NavMode.ROW
+    drive.ask(RequestKind.STOP)
+    drive.until(lambda _: False, seconds=3)
+    drive.ask(RequestKind.RESUME)
+    tick = drive.until(lambda tick: abs(tick.truth.v) > 0.2, seconds=10)
+    assert abs(tick.truth.v) > 0.2  # m/s
+
+
+def gnss_std(tick: Tick) -> float:
+    """Of the position by GNSS and wheels, along its worse axis, m."""
+    pose = tick.decision.status.gnss_pose
+    return 0.0 if pose is None else math.sqrt(max(pose.covariance[0], pose.covariance[4]))
 
 
 def test_pause_holds_and_resume_goes_on(park: Park, farm: SiteMap) -> None:

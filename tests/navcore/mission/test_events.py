@@ -97,3 +97,18 @@ def test_a_stamp_from_the_future_is_old() -> None:
 def test_gnss_may_be_silent_while_the_camera_is_driven_on() -> None:
     in_row = replace(WELL, mode=NavMode.ROW, row_age_s=0.1, gnss_age_s=30.0, pose_std=5.0)
     assert Effect.STOP not in effects_of(active_events(in_row, PARAMS))
+
+
+@pytest.mark.parametrize(
+    ("state", "mode", "doubted"),
+    [
+        (RunState.STOPPED, NavMode.ROW, False), (RunState.STOPPED, NavMode.HEADLAND, False),
+        (RunState.STOPPED, NavMode.GNSS_PATH, True), (RunState.IDLE, NavMode.IDLE, True),
+        (RunState.FINISHED, NavMode.ROW, True),
+    ],
+)  # fmt: skip
+def test_a_vague_position_keeps_from_setting_off_only_where_gnss_is_driven_on(
+    state: RunState, mode: NavMode, doubted: bool
+) -> None:
+    facts = replace(WELL, state=state, mode=mode, pose_std=1.0, row_age_s=0.1)
+    assert ("position_unsure" in [event.name for event in active_events(facts, PARAMS)]) is doubted
