@@ -34,7 +34,8 @@ class CorridorTrackerParams:
         sure_std, sure_objects: so many start one where the prior is as certain as that, m: the last plants of a row,
             or those between two gaps.
         max_offset_std, max_heading_std_deg: a row less certain than that is not shown.
-        carry: so far a row is carried without any evidence, m.
+        carry, carry_pictures: so far a row is carried without any evidence, m, and for so many pictures: one that
+            stands does not see by remembering.
         lost_share, lost_frames: a track that explains less than that share of the near objects in so many pictures
             in a row is dropped.
         wrong_row: a corridor further from the prior than that share of the width is another row.
@@ -64,6 +65,7 @@ class CorridorTrackerParams:
     max_offset_std: float = 0.22
     max_heading_std_deg: float = 4.0
     carry: float = 1.0
+    carry_pictures: int = 50
     lost_share: float = 0.34
     lost_frames: int = 4
     wrong_row: float = 0.5
@@ -83,11 +85,12 @@ class Width(NamedTuple):
 
 @dataclass(slots=True)
 class Track:
-    """What is remembered of the last picture."""
+    """What is remembered of the last picture; `unseen` and `pictures` since the last evidence, m and a count."""
 
     state: Floats
     covariance: Floats
     unseen: float = 0.0
+    pictures: int = 0
     doubts: int = 0
 
 
@@ -131,7 +134,10 @@ def moved(track: Track, motion: SE2, prior: RowPrior | None, p: CorridorTrackerP
     pitch_var = (1.0 - 0.7**2) * told_std**2
     covariance += np.diag((p.drift_per_m**2 * distance, turn_var, 0.02**2 * distance, pitch_var))
     state = np.array((across, wrap(heading - motion.yaw), width, told + 0.7 * (pitch - told)))
-    return Track(state=state, covariance=covariance, unseen=track.unseen + distance, doubts=track.doubts)
+    return Track(
+        state=state, covariance=covariance, unseen=track.unseen + distance, pictures=track.pictures + 1,
+        doubts=track.doubts,
+    )  # fmt: skip
 
 
 def other_row(track: Track, prior: RowPrior | None, p: CorridorTrackerParams) -> bool:

@@ -60,7 +60,8 @@ class CorridorTracker:
         seen = int(np.count_nonzero(corridor.sides))
         near = int(np.count_nonzero(np.nan_to_num(corridor.x, nan=99.0) < 8.0))
         track.doubts = track.doubts + 1 if near >= 4 and seen < self._params.lost_share * near else 0
-        track.unseen = 0.0 if seen else track.unseen
+        if seen:
+            track.unseen, track.pictures = 0.0, 0
         track.state, track.covariance = corridor.state, corridor.covariance
         reason = self._doubt(track, corridor, len(corners), told)
         if reason:
@@ -100,7 +101,7 @@ class CorridorTracker:
         """Why a corridor is not shown, empty if it is."""
         p = self._params
         offset_std, heading_std = np.sqrt(np.diag(track.covariance)[:2])
-        if track.unseen > p.carry:
+        if track.unseen > p.carry or track.pictures > p.carry_pictures:
             return "no trunk or post in sight" if objects == 0 else "no trunk or post on the row's lines"
         if track.doubts >= p.lost_frames:
             return "most trunks and posts in sight do not stand on the row's lines"

@@ -38,9 +38,12 @@ class RowEye:
         return replace(view, row=levelled(view.row, self._height, request.roll))
 
     def _motion(self, request: CameraRequest) -> SE2 | None:
-        """`T_last_now` of base_link, None where this picture does not follow the last one."""
+        """`T_last_now` of base_link, None where this picture does not follow the last one.
+
+        Nor does it where no row is expected: nobody tells then how the robot moves.
+        """
         last = self._last
-        if last is None or last.camera is not request.camera:
+        if last is None or last.camera is not request.camera or request.offset is None:
             return None
         return _odom(last).inverse() @ _odom(request)
 

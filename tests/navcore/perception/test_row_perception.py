@@ -197,6 +197,16 @@ def test_a_row_is_carried_for_a_metre_without_evidence_and_then_dropped() -> Non
     assert views[-1].row.reason == "no trunk or post in sight"
 
 
+def test_a_robot_that_stands_does_not_see_a_row_by_remembering_it() -> None:
+    told = Told(boxes_at(FRONT, corridor_feet(SE2())))
+    perception = RowPerception(FRONT, told, RowPerceptionParams())
+    assert perception.process(picture(FRONT), 0, CameraName.FRONT, motion=SE2()).row.valid
+    told.objects = ()
+    views = [perception.process(picture(FRONT), i, CameraName.FRONT, motion=SE2()) for i in range(1, 80)]
+    assert views[10].row.valid
+    assert not any(view.row.valid for view in views[51:])
+
+
 def test_without_motion_nothing_is_carried() -> None:
     told = Told(boxes_at(FRONT, corridor_feet(SE2())))
     perception = RowPerception(FRONT, told, RowPerceptionParams())
