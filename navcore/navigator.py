@@ -34,7 +34,8 @@ from navcore.mission.event_facts import EventParams
 from navcore.mission.events import Event, active_events, effects_of
 from navcore.mission.evidence import NS, GnssEvidence, GnssEvidenceParams
 from navcore.mission.guard_orders import GuardOrders
-from navcore.mission.pilot import Pilot, PilotParams
+from navcore.mission.pilot import Pilot
+from navcore.mission.pilot_params import PilotParams
 from navcore.mission.position import Position
 from navcore.mission.senses import Senses
 from navcore.mission.situation import Situation, event_facts

@@ -65,7 +65,9 @@ def _run(settings: Settings, can: str | None, gnss: str | None, config: Path | N
 
     if config is not None:
         # Each process reads it for itself: what is wrong with it is said before any begins.
-        new_detector(load_config(config).detector)
+        detector = load_config(config).detector
+        if detector.weights:
+            new_detector(detector)
     settings.data_dir.mkdir(parents=True, exist_ok=True)
     farm = beginning_farm(settings)
     robot = (

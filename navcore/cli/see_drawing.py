@@ -6,7 +6,6 @@ from pathlib import Path
 from typing import Any
 
 import cv2
-import numpy as np
 
 from navcore.cli.see_frames import Frame
 from navcore.errors import InputError
@@ -71,7 +70,10 @@ class Drawings:
         if self._video is None or self._video[0] != target:
             self.close()
             size = (frame.image.shape[1], frame.image.shape[0])
-            self._video = (target, cv2.VideoWriter(str(target), _codec(), frame.rate, size))
+            video = cv2.VideoWriter(str(target), cv2.VideoWriter.fourcc(*"mp4v"), frame.rate, size)
+            if not video.isOpened():
+                raise InputError(f"{target} cannot be written.")
+            self._video = (target, video)
         return self._video[1]
 
     def _target(self, frame: Frame) -> Path:
@@ -83,7 +85,3 @@ class Drawings:
                 n += 1
             self._names[frame.path] = target
         return self._names[frame.path]
-
-
-def _codec() -> int:
-    return int(np.int32(cv2.VideoWriter.fourcc(*"mp4v")))

@@ -48,7 +48,7 @@ def train(
         if resume:
             trainer.resume()
         best = trainer.run(typer.echo)
-        _ship(best, out / "feet.onnx", validation, params.threshold)
+        _ship(best, out / "feet.onnx", validation)
     except RowpilotError as error:
         typer.echo(str(error), err=True)
         raise typer.Exit(1) from error
@@ -72,16 +72,12 @@ def _cropped(size: tuple[int, int]) -> AugmentParams:
     return AugmentParams(width_px=size[0], height_px=size[1])
 
 
-def _ship(best: Path, path: Path, validation: Path, threshold: float) -> None:
+def _ship(best: Path, path: Path, validation: Path) -> None:
     """Export, compare with torch, and score what the robot would run."""
-    from navcore.perception.box_decoding import DecodingParams
-    from navcore.perception.onnx_detector import OnnxDetector, OnnxDetectorParams
-    from navcore.training.evaluate import evaluate, table
+    from navcore.cli.score import score_table
     from navcore.training.export import export_onnx
-    from navcore.training.samples import read_samples
     from navcore.training.trainer import load_net
 
     difference = export_onnx(load_net(best), path)
     typer.echo(f"{path}: {path.stat().st_size / 1e6:.2f} MB, differs from torch by at most {difference:.1e}")
-    detector = OnnxDetector(OnnxDetectorParams(weights=path, decoding=DecodingParams(threshold=0.05)))
-    typer.echo(table(evaluate(detector, read_samples(validation), threshold)))
+    typer.echo(score_table(path, validation))

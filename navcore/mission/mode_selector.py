@@ -205,6 +205,6 @@ def select_mode(before: NavMode, facts: ModeFacts, params: ModeSelectorParams) -
     return before, None
 
 
-def first_mode(facts: ModeFacts) -> tuple[NavMode, str]:
-    """Where a mission starts: on GNSS."""
-    return NavMode.GNSS_PATH, f"mission started, position known to {_metres(facts.gnss_std)}"
+def start_reason(gnss_std: float | None) -> str:
+    """Why a mission starts on GNSS: nothing else tells where its path lies."""
+    return f"mission started, position known to {_metres(gnss_std)}"

@@ -3,62 +3,20 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
 
 from navcore.geometry.polyline import Projection
 from navcore.geometry.se2 import SE2
-from navcore.localization.path_anchor import HALF_TURN, PathAnchor, PathAnchorParams, RowLine
-from navcore.messages import (
-    CameraName,
-    MissionPlan,
-    ModeSwitch,
-    NavMode,
-    PathSegment,
-    RowObservation,
-    SegmentKind,
-)
-from navcore.mission.evidence import RowEvidence, RowEvidenceParams
-from navcore.mission.mode_selector import ModeFacts, ModeSelectorParams, first_mode, select_mode
+from navcore.localization.path_anchor import HALF_TURN, PathAnchor, RowLine
+from navcore.messages import CameraName, MissionPlan, ModeSwitch, NavMode, PathSegment, RowObservation, SegmentKind
+from navcore.mission.evidence import RowEvidence
+from navcore.mission.mode_selector import ModeFacts, select_mode, start_reason
+from navcore.mission.pilot_params import PilotParams
 from navcore.mission.position import Position
 from navcore.mission.route import Leg, Place, Route, row_length
 
 ON_CAMERA = frozenset({NavMode.ROW_ENTRY, NavMode.ROW})
 ALONG_ROW = frozenset({NavMode.ROW, NavMode.ROW_END})
 CARRIED = frozenset({NavMode.ROW_END, NavMode.HEADLAND})
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class PilotParams:
-    """Parameters of `Pilot`.
-
-    Attributes:
-        arrival: a leg counts as driven this close to its end, m.
-        capture: the path counts as reached this close to it, m.
-        search: half width of the search for the place on the path, m.
-        look_out: the camera is used from this far before a row's entry segment, m.
-        drift_std: position 1-sigma at which GNSS tells how odometry drifts while the path is carried by it, m.
-        turned_to: by so much the robot may be turned away from the next row that it drives up to, rad, for the camera
-            to say where that row lies.
-        straight: metres before and behind the robot on which the path must not turn for GNSS to take over.
-        end_std: 1-sigma of the row end's distance as the camera sees it, m.
-        seen_range: plants further away say nothing sure about where the row ends, m.
-        seen_share: share of the distance up to which the row is seen to go on that is believed: a camera that pitches
-            by half a degree sees 10 m as 11.
-    """
-
-    arrival: float = 0.12
-    capture: float = 0.25
-    search: float = 3.0
-    look_out: float = 4.0
-    drift_std: float = 0.05
-    turned_to: float = 0.7
-    straight: float = 2.0
-    end_std: float = 0.4
-    seen_range: float = 7.0
-    seen_share: float = 0.9
-    anchor: PathAnchorParams = field(default_factory=PathAnchorParams)
-    row: RowEvidenceParams = field(default_factory=RowEvidenceParams)
-    mode: ModeSelectorParams = field(default_factory=ModeSelectorParams)
 
 
 class Pilot:
@@ -77,8 +35,7 @@ class Pilot:
         self.place = Place(0, 0.0)
         self.pose = self.driving_pose(T_map_base)
         self.projection = self._project(near_s=None)
-        self.mode = NavMode.GNSS_PATH
-        self.mode, self.mode_reason = first_mode(self._facts(start))
+        self.mode, self.mode_reason = NavMode.GNSS_PATH, start_reason(start.gnss_std)
 
     @property
     def leg(self) -> Leg:
@@ -102,8 +59,9 @@ class Pilot:
 
     @property
     def sees_row(self) -> bool:
-        """The row that matters here is seen in enough pictures to be trusted."""
-        return self.row.streak >= self.params.mode.streak
+        """The row that matters here is seen in enough pictures to be trusted, and still is."""
+        mode, age_s = self.params.mode, self.row.age_s(self._at.now_ns)
+        return self.row.streak >= mode.streak and age_s is not None and age_s <= mode.lost_s
 
     @property
     def before_seen_row(self) -> bool:

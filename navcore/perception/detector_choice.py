@@ -13,7 +13,10 @@ from navcore.perception.yolo_detector import YoloDetector, YoloParams
 def new_detector(params: DetectorParams) -> Detector:
     """Raises ModelError with a sentence for a file that is missing, broken, or of another kind."""
     decoding = DecodingParams(threshold=params.threshold)
-    weights = Path(params.weights) if params.weights else None
-    if weights is None or not (params.classes or len(open_model(weights).get_outputs()) == 1):
-        return OnnxDetector(OnnxDetectorParams(weights=weights, decoding=decoding))
-    return YoloDetector(open_model(weights), str(weights), YoloParams(classes=params.classes, decoding=decoding))
+    if not params.weights:
+        return OnnxDetector(OnnxDetectorParams(decoding=decoding))
+    weights = Path(params.weights)
+    session = open_model(weights)
+    if params.classes or len(session.get_outputs()) == 1:
+        return YoloDetector(session, params.weights, YoloParams(classes=params.classes, decoding=decoding))
+    return OnnxDetector(OnnxDetectorParams(weights=weights, decoding=decoding))

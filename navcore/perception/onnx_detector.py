@@ -15,6 +15,7 @@ from navcore.errors import ModelError
 from navcore.messages import DetectedObject
 from navcore.perception.box_decoding import DecodingParams, decode, detected_objects
 from navcore.perception.detector import Image
+from navcore.perception.picture_fit import fit_picture
 
 WEIGHTS = Path(__file__).with_name("weights") / "feet.onnx"
 
@@ -44,20 +45,17 @@ class OnnxDetector:
     def detect(self, image: Image) -> tuple[DetectedObject, ...]:
         """Boxes in a picture (H, W, 3), BGR, of any size; best first."""
         height, width = image.shape[:2]
-        scale = min(self._width / width, self._height / height)
-        peaks, boxes = self._session.run(None, {self._input: self._blob(image, scale)})
+        fitted, scale = fit_picture(image, self._height, self._width)
+        peaks, boxes = self._session.run(None, {self._input: self._blob(fitted)})
         found, confidence, kinds = decode(peaks[0], boxes[0], self._stride, self._decoding)
         return detected_objects(found, confidence, kinds, scale=1 / scale, width_px=width, height_px=height)
 
-    def _blob(self, image: Image, scale: float) -> NDArray[np.float32]:
-        """The picture as the network wants it: shrunk to fit, in the upper left corner, 0 to 1."""
-        if scale != 1.0:
-            method = cv2.INTER_AREA if scale < 1.0 else cv2.INTER_LINEAR
-            image = np.asarray(cv2.resize(image, None, fx=scale, fy=scale, interpolation=method), dtype=np.uint8)
+    def _blob(self, fitted: Image) -> NDArray[np.float32]:
+        """The picture as the network wants it: in the upper left corner, 0 to 1."""
+        h, w = fitted.shape[:2]
         blob = np.empty((1, 3, self._height, self._width), dtype=np.float32)
-        h, w = min(image.shape[0], self._height), min(image.shape[1], self._width)
         blob[:, :, h:], blob[:, :, :h, w:] = 0.0, 0.0
-        for plane, out in zip(cv2.split(image[:h, :w]), blob[0], strict=True):
+        for plane, out in zip(cv2.split(fitted), blob[0], strict=True):
             np.multiply(plane, np.float32(1 / 255), out=out[:h, :w])
         return blob
 

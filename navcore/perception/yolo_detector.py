@@ -6,7 +6,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
@@ -14,6 +13,7 @@ from navcore.errors import ModelError
 from navcore.messages import DetectedObject, ObjectKind
 from navcore.perception.box_decoding import KINDS, DecodingParams, detected_objects, suppress
 from navcore.perception.detector import Image
+from navcore.perception.picture_fit import fit_picture
 
 Singles = NDArray[np.float32]
 Floats = NDArray[np.float64]
@@ -47,19 +47,18 @@ class YoloDetector:
     def detect(self, image: Image) -> tuple[DetectedObject, ...]:
         """Boxes in a picture (H, W, 3), BGR, of any size; best first."""
         height, width = image.shape[:2]
-        scale = min(self._width / width, self._height / height)
-        blob, (left, top) = self._letterbox(image, scale)
+        fitted, scale = fit_picture(image, self._height, self._width)
+        blob, (left, top) = self._letterbox(fitted)
         boxes, confidence, kinds = self._decoded(self._session.run(None, {self._input: blob})[0])
         boxes = boxes - (left, top, left, top)
         return detected_objects(boxes, confidence, kinds, scale=1 / scale, width_px=width, height_px=height)
 
-    def _letterbox(self, image: Image, scale: float) -> tuple[Singles, tuple[int, int]]:
-        """The picture as YOLO wants it: red, green, blue, 0 to 1, shrunk to fit, in the middle."""
-        size = (round(image.shape[1] * scale), round(image.shape[0] * scale))
-        small = cv2.resize(image, size, interpolation=cv2.INTER_AREA if scale < 1.0 else cv2.INTER_LINEAR)
-        left, top = (self._width - size[0]) // 2, (self._height - size[1]) // 2
+    def _letterbox(self, fitted: Image) -> tuple[Singles, tuple[int, int]]:
+        """The picture as YOLO wants it: red, green, blue, 0 to 1, in the middle; and where that begins."""
+        h, w = fitted.shape[:2]
+        left, top = (self._width - w) // 2, (self._height - h) // 2
         full = np.full((self._height, self._width, 3), FILL, dtype=np.uint8)
-        full[top : top + size[1], left : left + size[0]] = small
+        full[top : top + h, left : left + w] = fitted
         blob = np.ascontiguousarray(full[..., ::-1].transpose(2, 0, 1)[None], dtype=np.float32) / np.float32(255)
         return blob, (left, top)
 

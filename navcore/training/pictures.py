@@ -6,12 +6,12 @@ from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
-import cv2
 import numpy as np
 import torch
 from numpy.typing import NDArray
 from torch import Tensor
 
+from navcore.perception.picture_fit import fit_picture
 from navcore.training.samples import Labels, Sample
 
 
@@ -96,12 +96,8 @@ class Pictures:
 
     def _fitted(self, sample: Sample) -> tuple[NDArray[np.uint8], float]:
         """A picture of the network's size, and how many times as large it is shown."""
-        image, (height, width) = sample.image(), self._size
-        scale = min(width / image.shape[1], height / image.shape[0])
-        if scale != 1.0:
-            image = np.asarray(cv2.resize(image, None, fx=scale, fy=scale, interpolation=cv2.INTER_AREA), np.uint8)
-        full = np.zeros((height, width, 3), dtype=np.uint8)
-        shown = image[:height, :width]
+        shown, scale = fit_picture(sample.image(), *self._size)
+        full = np.zeros((*self._size, 3), dtype=np.uint8)
         full[: shown.shape[0], : shown.shape[1]] = shown
         return full, scale
 

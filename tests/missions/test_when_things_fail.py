@@ -126,6 +126,23 @@ def test_silent_gnss_does_not_matter_in_the_row(park: Park, farm: SiteMap) -> No
     assert tick.decision.status.state is RunState.DRIVING
 
 
+def test_a_camera_that_falls_silent_before_the_next_row_lets_nobody_in(park: Park, farm: SiteMap) -> None:
+    """The row was seen from the turn: that is no reason to drive into it blind."""
+    drive = park(3)
+    drive.start(farm, mission_for_row(farm, "r1", RowExit.NEXT_ROW))
+    drive.until_mode(NavMode.HEADLAND)
+    pilot = drive.lockstep.navigator.pilot
+    assert pilot is not None
+    drive.until(lambda _: pilot.before_seen_row, seconds=60)
+    assert pilot.before_seen_row
+    drive.lockstep.eye = None
+    tick = drive.until(lambda tick: tick.decision.status.state is RunState.HOLDING, seconds=30)
+    assert "entrance_unseen" in events(tick)
+    ahead = pilot.to_start()
+    assert ahead is not None
+    assert ahead > 1.0  # m
+
+
 def test_silent_camera_holds_in_the_row_and_goes_on_when_it_sees_again(park: Park, farm: SiteMap) -> None:
     drive = in_the_row(park, farm)
     eye, drive.lockstep.eye = drive.lockstep.eye, None

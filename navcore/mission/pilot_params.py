@@ -1,0 +1,43 @@
+"""Parameters of the pilot."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from navcore.localization.path_anchor import PathAnchorParams
+from navcore.mission.evidence import RowEvidenceParams
+from navcore.mission.mode_selector import ModeSelectorParams
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PilotParams:
+    """Parameters of `Pilot`.
+
+    Attributes:
+        arrival: a leg counts as driven this close to its end, m.
+        capture: the path counts as reached this close to it, m.
+        search: half width of the search for the place on the path, m.
+        look_out: the camera is used from this far before a row's entry segment, m.
+        drift_std: position 1-sigma at which GNSS tells how odometry drifts while the path is carried by it, m.
+        turned_to: by so much the robot may be turned away from the next row that it drives up to, rad, for the camera
+            to say where that row lies.
+        straight: metres before and behind the robot on which the path must not turn for GNSS to take over.
+        end_std: 1-sigma of the row end's distance as the camera sees it, m.
+        seen_range: plants further away say nothing sure about where the row ends, m.
+        seen_share: share of the distance up to which the row is seen to go on that is believed: a camera that pitches
+            by half a degree sees 10 m as 11.
+    """
+
+    arrival: float = 0.12
+    capture: float = 0.25
+    search: float = 3.0
+    look_out: float = 4.0
+    drift_std: float = 0.05
+    turned_to: float = 0.7
+    straight: float = 2.0
+    end_std: float = 0.4
+    seen_range: float = 7.0
+    seen_share: float = 0.9
+    anchor: PathAnchorParams = field(default_factory=PathAnchorParams)
+    row: RowEvidenceParams = field(default_factory=RowEvidenceParams)
+    mode: ModeSelectorParams = field(default_factory=ModeSelectorParams)
