@@ -128,6 +128,19 @@ class PathAnchor:
         slip = SE2(before.x + moved[0] - now.x, before.y + moved[1] - now.y, 0.0)
         self.T_map_odom = slip @ self.T_map_odom
 
+    def take_along(self, T_map_odom: SE2, T_odom_drive: SE2) -> None:
+        """Out of the row: take the place along it from the pose filter's tie, and keep the one across it.
+
+        After a right-angle turn what was along the row is aside: by then the drawn path is followed there, and the
+        change to GNSS moves nothing. How far the drawing is off, the map alone says.
+        """
+        here, told = self.T_map_odom @ T_odom_drive, T_map_odom @ T_odom_drive
+        c, s, p = math.cos(self.row_heading), math.sin(self.row_heading), self.params
+        ahead = c * (told.x - here.x) + s * (told.y - here.y)
+        if abs(ahead) <= p.gate * math.hypot(math.sqrt(self.var_along), p.map_along):
+            self._set(SE2(here.x + c * ahead, here.y + s * ahead, here.yaw), T_odom_drive)
+            self.var_along = p.map_along**2
+
     def see_row(
         self, row: RowLine, T_odom_drive: SE2, offset: float, heading: float, offset_std: float, heading_std: float
     ) -> None:

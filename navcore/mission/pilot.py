@@ -110,6 +110,7 @@ class Pilot:
         self.carried = self.carried + distance if self.mode in CARRIED else 0.0
         if self.mode in CARRIED:
             self._take_drift(self._at, at)
+            self._take_along(at)
         self._at = at
         return distance
 
@@ -120,6 +121,13 @@ class Pilot:
             return
         moved = ends[1].x - ends[0].x, ends[1].y - ends[0].y
         self.anchor.drift(before.T_odom_base, now.T_odom_base, moved)
+
+    def _take_along(self, at: Position) -> None:
+        """Past the row's end GNSS that is sure says how far the robot is along it."""
+        known, to_end = at.surely_at(self.params.drift_std), self.to_end()
+        left = to_end is None or to_end <= -self.params.mode.clear
+        if known is not None and left and at.gnss_good(self.params.mode):
+            self.anchor.take_along(known @ at.T_odom_base.inverse(), self.driving_pose(at.T_odom_base))
 
     def _see(self, seen: RowObservation, T_odom_drive: SE2) -> None:
         """Judge what the camera saw by the row that is meant, and correct the anchor while driving on it."""
@@ -220,14 +228,17 @@ class Pilot:
         row = self.row_line()
         return -row.coordinates(self.pose).x if row else None
 
+    def to_end(self) -> float | None:
+        """Metres ahead at which that row ends, negative behind it."""
+        segment, to_start = self.row_segment(), self.to_start()
+        return row_length(segment) + to_start if segment is not None and to_start is not None else None
+
     def _facts(self, at: Position) -> ModeFacts:
-        row, segment = self.row_line(), self.row_segment()
-        along = row.coordinates(self.pose).x if row else None
         seen = self.row.agreeing
         return ModeFacts(
             segment=self.segment.kind,
-            to_start=-along if along is not None else None,
-            to_end=row_length(segment) - along if segment is not None and along is not None else None,
+            to_start=self.to_start(),
+            to_end=self.to_end(),
             row_follows=self.leg.row_follows(self.place.s),
             turn_follows=self.leg.turn_follows(self.place.s),
             straight=self.mode in CARRIED and self.leg.straight_at(self.place.s, self.params.straight),
