@@ -1,10 +1,11 @@
-"""How the body leans against the ground it drives on: roll and pitch from the IMU, less the lie of the land."""
+"""How the body leans against the ground it drives on: roll and pitch from the IMU, less land and mount."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
+from navcore.localization.ground_slope import GroundSlope, GroundSlopeParams
 from navcore.messages import ImuSample
 
 GRAVITY = 9.80665
@@ -17,25 +18,24 @@ class AttitudeParams:
 
     Attributes:
         settle_s: time constant with which gravity corrects the gyros, s, 0.5 to 10.
-        land: distance over which the ground's own slope is averaged, m, 5 to 200. Ruts and bumps are shorter.
-        prior: so many metres of driving weigh as much as the belief at first, that the land is level.
         gap_s: a longer pause between samples starts the attitude anew.
+        step: driven distance after which the slope is learned from, m.
     """
 
     settle_s: float = 1.5
-    land: float = 30.0
-    prior: float = 5.0
     gap_s: float = 0.2
+    step: float = 0.2
+    slope: GroundSlopeParams = field(default_factory=GroundSlopeParams)
 
 
 class Attitude:
-    """Complementary filter of gyros and gravity; the land's slope is its average over the last metres, in `odom`.
+    """Complementary filter of gyros and gravity, and the slope of the ground under it.
 
     A row on a side slope looks like one on level ground, because camera and ground lean together. What shifts the
     picture is only the lean against the ground: a wheel in a rut, a bump.
 
     Attributes:
-        roll, pitch: of `base_link` against gravity, rad (REP 103: left side up, nose down).
+        roll, pitch: of the IMU against gravity, rad (REP 103: left side up, nose down).
     """
 
     def __init__(self, params: AttitudeParams) -> None:
@@ -43,8 +43,8 @@ class Attitude:
         self.roll = self.pitch = 0.0
         self._stamp_ns: int | None = None
         self._v = self._v_filtered = 0.0
-        self._slope = (0.0, 0.0)
-        self._weight = params.prior
+        self._slope = GroundSlope(params.slope)
+        self._driven = 0.0
 
     def add_speed(self, v: float) -> None:
         """Forward speed of the wheels, m/s: its change and the curve's pull are taken off the measured force."""
@@ -76,21 +76,17 @@ class Attitude:
         return math.asin(ay), -math.asin(ax)
 
     def drive(self, distance: float, yaw: float) -> None:
-        """Learn the land's slope over a driven distance, m, at a yaw in `odom`."""
-        d = abs(distance)
-        if d == 0.0:
-            return
-        self._weight = min(self._weight + d, self.params.land)
-        gx, gy = _to_odom(-self.pitch, self.roll, yaw)
-        share = min(d / self._weight, 1.0)
-        self._slope = (self._slope[0] + share * (gx - self._slope[0]), self._slope[1] + share * (gy - self._slope[1]))
+        """Learn the slope over a driven distance, m, at a yaw in `odom`."""
+        self._driven += abs(distance)
+        if self._driven >= self.params.step:
+            self._slope.drive(self._driven, yaw, (-self.pitch, self.roll))
+            self._driven = 0.0
+
+    def see_lean(self, yaw: float, more: float, std: float) -> None:
+        """A camera leans by `more` to the side (roll of `base_link`, rad) than `against_ground` told."""
+        self._slope.see_lean(yaw, more, std)
 
     def against_ground(self, yaw: float) -> tuple[float, float]:
-        """(roll, pitch) of the body against the land at a yaw in `odom`, rad."""
-        gx, gy = _to_odom(*self._slope, -yaw)
-        return self.roll - gy, self.pitch + gx
-
-
-def _to_odom(gx: float, gy: float, yaw: float) -> tuple[float, float]:
-    c, s = math.cos(yaw), math.sin(yaw)
-    return c * gx - s * gy, s * gx + c * gy
+        """(roll, pitch) of the body against the ground at a yaw in `odom`, rad."""
+        forward, left = self._slope.tilt(yaw)
+        return self.roll - left, self.pitch + forward

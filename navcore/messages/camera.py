@@ -72,6 +72,8 @@ class RowObservation:
             None if that cannot be said.
         objects: number of trunks and posts that carried the fit.
         left_seen, right_seen: this frame's own evidence for each side (False: carried over from earlier frames).
+        lean: by so much more than told the camera leans to the side (roll of the driving frame, left side up), rad;
+            once every few metres, else None. lean_std: 1-sigma.
         image_offset, image_heading: paper A's reading of the image's bisector: lateral deviation of the centre line
             at the look-ahead depth, m, and its angle to the image's vertical, rad; both positive to the left.
     """
@@ -93,6 +95,8 @@ class RowObservation:
     right_seen: bool = False
     image_offset: float | None = None
     image_heading: float | None = None
+    lean: float | None = None
+    lean_std: float | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

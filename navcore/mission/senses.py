@@ -9,7 +9,7 @@ from navcore.geometry.se2 import SE2
 from navcore.localization.attitude import Attitude
 from navcore.localization.independent_check import IndependentCheck
 from navcore.localization.pose_filter import PoseFilter
-from navcore.messages import FixQuality, NavInputs, PoseEstimate
+from navcore.messages import CameraName, FixQuality, NavInputs, PoseEstimate, RowObservation
 from navcore.mission.evidence import NS, GnssEvidence
 
 STANDING_V = 0.03
@@ -51,6 +51,14 @@ class Senses:
         before, self.T_odom_base = self.T_odom_base, self.filter.odom_at(inputs.now_ns)
         driven = math.hypot(self.T_odom_base.x - before.x, self.T_odom_base.y - before.y)
         self.attitude.drive(driven, self.T_odom_base.yaw)
+        for row in inputs.rows:
+            self._take_lean(row)
+
+    def _take_lean(self, row: RowObservation) -> None:
+        """The rear camera leans to its right where the robot leans to its left."""
+        if row.lean is not None and row.lean_std is not None:
+            side = -1.0 if row.camera is CameraName.REAR else 1.0
+            self.attitude.see_lean(self.T_odom_base.yaw, side * row.lean, row.lean_std)
 
     @property
     def T_map_base(self) -> SE2 | None:

@@ -9,12 +9,13 @@ from navcore.geometry.pinhole import PinholeCamera
 from navcore.messages import CameraName, CameraView, DetectedObject, ImageLine, ImagePoint, RowObservation
 from navcore.perception.corner_points import CornerPoints
 from navcore.perception.image_lines import image_line
+from navcore.perception.lean_fit import Lean
 from navcore.perception.row_lines import GroundRow, RowLines
 
 
 def row_observation(
     stamp_ns: int, name: CameraName, lines: RowLines, ground: GroundRow | str, end: float | None,
-    seen_to: float | None, published: tuple[float, float] | None,
+    seen_to: float | None, published: tuple[float, float] | None, lean: Lean | None = None,
 ) -> RowObservation:  # fmt: skip
     """The row on the ground, or the reason why there is none; `published` is the bisector's reading beside it."""
     if isinstance(ground, str):
@@ -25,7 +26,8 @@ def row_observation(
         offset_std=math.sqrt(ground.covariance[0, 0]), heading_std=math.sqrt(ground.covariance[1, 1]),
         quality=ground.quality, width=ground.width, end_distance=end, seen_to=seen_to,
         objects=len(ground.left_x) + len(ground.right_x), left_seen=lines.left_seen, right_seen=lines.right_seen,
-        image_offset=image_offset, image_heading=image_heading,
+        image_offset=image_offset, image_heading=image_heading, lean=lean.roll if lean else None,
+        lean_std=lean.std if lean else None,
     )  # fmt: skip
 
 

@@ -18,6 +18,7 @@ from navcore.perception.detector import Detector, Image, picture_fault
 from navcore.perception.geometric_filter import GeometricFilterParams, geometric_filter
 from navcore.perception.ground_row import GroundRowParams, ground_row
 from navcore.perception.image_lines import driving_camera, image_bisector, looks_back, published_reading
+from navcore.perception.lean_watch import LeanWatch, LeanWatchParams
 from navcore.perception.least_squares import LeastSquares
 from navcore.perception.row_end import RowEnd, RowEndParams, seen_to
 from navcore.perception.row_lines import GroundRow, RowCue, RowLineFitter, RowLines, RowPrior
@@ -54,6 +55,7 @@ class RowPerceptionParams:
     ground: GroundRowParams = GroundRowParams()
     corridor: CorridorTrackerParams = CorridorTrackerParams()
     row_end: RowEndParams = RowEndParams()
+    lean: LeanWatchParams = LeanWatchParams()
 
 
 def row_line_fitter(camera: PinholeCamera, params: RowPerceptionParams) -> RowLineFitter:
@@ -77,6 +79,7 @@ class RowPerception:
         self._params = params
         self._fitter = row_line_fitter(self._camera, params)
         self._end = RowEnd(params.row_end)
+        self._lean = LeanWatch(self._camera, params.lean)
 
     def process(
         self, image: Image, stamp_ns: int, camera_name: CameraName, *, prior: RowPrior | None = None,
@@ -96,13 +99,17 @@ class RowPerception:
         end = self._row_end(ground, cue.motion)
         bisector = image_bisector(lines.left, lines.right) if lines.left and lines.right else None
         published = published_reading(bisector, self._camera, self._params.look_ahead) if bisector else None
-        row = row_observation(stamp_ns, camera_name, lines, fault or ground, end, self._seen_to(ground), published)
+        lean = self._lean.see(None if isinstance(ground, str) else ground, cue.motion, prior.roll if prior else 0.0)
+        row = row_observation(
+            stamp_ns, camera_name, lines, fault or ground, end, self._seen_to(ground), published, lean
+        )  # fmt: skip
         return camera_view(self._camera, objects, corners, lines, ground, bisector, row, latency_ms)
 
     def forget(self) -> None:
         """The next picture does not follow the last one."""
         self._fitter.forget()
         self._end.forget()
+        self._lean.forget()
 
     def _fault(self, image: Image) -> str:
         return picture_fault(image, width_px=self._camera.width_px, height_px=self._camera.height_px)

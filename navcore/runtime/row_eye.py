@@ -54,7 +54,9 @@ def row_prior(request: CameraRequest, camera_height: float) -> RowPrior | None:
         return None
     std = max(request.offset_std or 0.0, LEAST_PRIOR_STD)
     offset = leaning_offset(request.offset, request.width or USUAL_WIDTH, camera_height, request.roll)
-    return RowPrior(offset=offset, heading=request.heading, std=std, width=request.width, pitch=request.pitch)
+    return RowPrior(
+        offset=offset, heading=request.heading, std=std, width=request.width, pitch=request.pitch, roll=request.roll
+    )  # fmt: skip
 
 
 def _is_another_row(seen: RowObservation, prior: RowPrior | None) -> bool:

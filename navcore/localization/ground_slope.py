@@ -1,0 +1,82 @@
+"""What leans the IMU besides a wheel in a rut: the land's own slope, and how the IMU is mounted.
+
+The land's slope stays where it is when the robot turns, the mount's turns with it: that tells them apart. Two things
+speak of their sum: over many metres a robot stands upright on the land, and a camera that sees plants on both sides
+come nearer at different rates knows how it leans against the ground they stand on.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class GroundSlopeParams:
+    """Parameters of `GroundSlope`; all > 0.
+
+    Attributes:
+        land_deg, land_length: 1-sigma of the land's slope, and the way over which it becomes another, m.
+        mount_deg: 1-sigma of how the IMU's axes and zeros are off.
+        bump_deg, bump_length: 1-sigma of the lean in ruts and bumps, and the way over which it lasts, m.
+        gate: a reading of the camera further off than so many 1-sigma is not believed.
+    """
+
+    land_deg: float = 1.2
+    land_length: float = 300.0
+    mount_deg: float = 0.6
+    bump_deg: float = 1.0
+    bump_length: float = 5.0
+    gate: float = 3.5
+
+
+class GroundSlope:
+    """Kalman filter over (slope along x and y of `odom`, mount along x and y of `base_link`), rad.
+
+    Tilts are (forward, left): tangents of how much the ground, or the IMU, rises ahead and to the left.
+    """
+
+    def __init__(self, params: GroundSlopeParams) -> None:
+        self.params = params
+        self._land_var, mount_var = math.radians(params.land_deg) ** 2, math.radians(params.mount_deg) ** 2
+        self._state: Floats = np.zeros(4)
+        self._covariance: Floats = np.diag((self._land_var, self._land_var, mount_var, mount_var))
+
+    def tilt(self, yaw: float) -> tuple[float, float]:
+        """(forward, left) of an upright robot's IMU at a yaw in `odom`."""
+        forward, left = _turned_to_body(yaw) @ self._state
+        return float(forward), float(left)
+
+    def drive(self, distance: float, yaw: float, tilt: tuple[float, float]) -> None:
+        """The IMU was tilted so over some metres: on the whole the robot stands upright on its ground."""
+        p = self.params
+        fades = math.exp(-distance / p.land_length)
+        self._state[:2] *= fades
+        self._covariance[:2, :] *= fades
+        self._covariance[:, :2] *= fades
+        self._covariance[[0, 1], [0, 1]] += (1.0 - fades**2) * self._land_var
+        noise = math.radians(p.bump_deg) ** 2 * 2.0 * p.bump_length / distance
+        self._update(_turned_to_body(yaw), np.asarray(tilt), np.diag((noise, noise)))
+
+    def see_lean(self, yaw: float, more: float, std: float) -> None:
+        """The camera leans by `more` to the side (roll, rad) than the IMU and this slope told, 1-sigma `std`."""
+        H = _turned_to_body(yaw)[1:]
+        innovation_std = math.sqrt(float((H @ self._covariance @ H.T)[0, 0]) + std**2)
+        if abs(more) <= self.params.gate * innovation_std:
+            self._update(H, H @ self._state - more, np.array([[std**2]]))
+
+    def _update(self, H: Floats, measured: Floats, noise: Floats) -> None:
+        gain = self._covariance @ H.T @ np.linalg.inv(H @ self._covariance @ H.T + noise)
+        self._state = self._state + gain @ (measured - H @ self._state)
+        self._covariance = (np.eye(4) - gain @ H) @ self._covariance
+
+
+def _turned_to_body(yaw: float) -> Floats:
+    """From the state to (forward, left) in `base_link`, (2, 4)."""
+    c, s = math.cos(yaw), math.sin(yaw)
+    return np.array(((c, s, 1.0, 0.0), (-s, c, 0.0, 1.0)))
