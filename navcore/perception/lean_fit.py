@@ -40,7 +40,7 @@ class LeanFitParams:
     plants: int = 2
     soft: float = 1.5
     rounds: int = 4
-    floor_deg: float = 0.5
+    floor_deg: float = 0.7
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,7 +107,7 @@ def _robust(A: Floats, b: Floats, n: int, params: LeanFitParams) -> tuple[Floats
     for _ in range(params.rounds):
         weighted = A * weight[:, None]
         information = weighted.T @ weighted
-        z = np.linalg.solve(information, weighted.T @ (b * weight))
+        z = np.asarray(np.linalg.solve(information, weighted.T @ (b * weight)), dtype=np.float64)
         residual = A[:n] @ z - b[:n]
         weight[:n] = 1.0 / np.sqrt(1.0 + (residual / params.soft) ** 2)
     return z, information

@@ -46,6 +46,24 @@ def test_row_end_corrects_the_place_along_the_row() -> None:
     assert ROW.coordinates(anchor.T_map_odom @ odom).x == pytest.approx(wanted, abs=0.1)
 
 
+def test_sure_gnss_moves_the_robot_along_the_row_and_not_across_it() -> None:
+    anchor, odom = anchored(), SE2(8.0, 3.0, 0.25)
+    anchor.see_row(ROW, odom, offset=0.4, heading=-0.05, offset_std=0.03, heading_std=0.01)
+    before = ROW.coordinates(anchor.T_map_odom @ odom)
+    gnss = ROW.pose(SE2(before.x + 0.7, before.y + 0.5, before.yaw))
+    anchor.take_along(gnss @ odom.inverse(), odom)
+    after = ROW.coordinates(anchor.T_map_odom @ odom)
+    assert (after.x, after.y) == pytest.approx((before.x + 0.7, before.y), abs=1e-6)  # m
+
+
+def test_gnss_that_is_metres_off_along_the_row_is_not_taken() -> None:
+    anchor, odom = anchored(), SE2(8.0, 3.0, 0.25)
+    anchor.see_row(ROW, odom, offset=0.4, heading=-0.05, offset_std=0.03, heading_std=0.01)
+    before = ROW.coordinates(anchor.T_map_odom @ odom)
+    anchor.take_along(ROW.pose(SE2(before.x + 6.0, before.y, before.yaw)) @ odom.inverse(), odom)
+    assert ROW.coordinates(anchor.T_map_odom @ odom).x == pytest.approx(before.x, abs=1e-6)  # m
+
+
 def test_a_row_that_goes_on_holds_the_robot_back_and_never_pushes_it() -> None:
     """Wheels that slip by 7 % tell 4 m too many in a row of 60 m."""
     anchor, odom = anchored(), SE2(8.0, 3.0, 0.25)

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from navcore.geometry.pinhole import PinholeCamera
+from navcore.geometry.pinhole import PinholeCamera, rotation_from_rpy
 from navcore.geometry.se2 import SE2
 from navcore.messages import DetectedObject, ObjectKind
 from navcore.perception.detector import Image
@@ -29,14 +29,19 @@ def picture(camera: PinholeCamera) -> Image:
     return rng.integers(0, 255, (camera.height_px, camera.width_px, 3), dtype=np.uint8)
 
 
-def boxes_at(camera: PinholeCamera, feet: np.ndarray, reach: float = 12.0) -> tuple[DetectedObject, ...]:
-    """Boxes of trunks 8 cm thick and 1.2 m high at feet (N, 2) in `base_link`, those wholly inside the picture."""
-    objects = []
+def boxes_at(
+    camera: PinholeCamera, feet: np.ndarray, reach: float = 12.0, roll: float = 0.0
+) -> tuple[DetectedObject, ...]:
+    """Boxes of trunks 8 cm thick and 1.2 m high at feet (N, 2) in `base_link`, those wholly inside the picture.
+
+    `roll` of the body against the ground, rad.
+    """
+    objects, leaning = [], rotation_from_rpy(roll, 0.0, 0.0)
     for x, y in feet:
         facing = (x - camera.x) * math.cos(camera.yaw) + (y - camera.y) * math.sin(camera.yaw)
         if facing < 0.5 or math.hypot(x - camera.x, y - camera.y) > reach:
             continue
-        (u, v), (_, top) = camera.project(np.array([[x, y, 0.0], [x, y, 1.2]]))
+        (u, v), (_, top) = camera.project(np.array([[x, y, 0.0], [x, y, 1.2]]) @ leaning)
         half = 0.04 * camera.fx / facing
         if u - half > 0 and u + half < camera.width_px and v < camera.height_px:
             objects.append(
