@@ -128,19 +128,6 @@ class PathAnchor:
         slip = SE2(before.x + moved[0] - now.x, before.y + moved[1] - now.y, 0.0)
         self.T_map_odom = slip @ self.T_map_odom
 
-    def take_along(self, T_map_odom: SE2, T_odom_drive: SE2) -> None:
-        """Out of the row: take the place along it from the pose filter's tie, and keep the one across it.
-
-        After a right-angle turn what was along the row is aside: by then the drawn path is followed there, and the
-        change to GNSS moves nothing. How far the drawing is off, the map alone says.
-        """
-        here, told = self.T_map_odom @ T_odom_drive, T_map_odom @ T_odom_drive
-        c, s, p = math.cos(self.row_heading), math.sin(self.row_heading), self.params
-        ahead = c * (told.x - here.x) + s * (told.y - here.y)
-        if abs(ahead) <= p.gate * math.hypot(math.sqrt(self.var_along), p.map_along):
-            self._set(SE2(here.x + c * ahead, here.y + s * ahead, here.yaw), T_odom_drive)
-            self.var_along = p.map_along**2
-
     def see_row(
         self, row: RowLine, T_odom_drive: SE2, offset: float, heading: float, offset_std: float, heading_std: float
     ) -> None:
@@ -216,7 +203,7 @@ class PathAnchor:
         aside = self._patience(sideways, lateral_error) * min(p.slide * dt, p.slide_share * d)
         # In a bend what slides along the path becomes an error to the side.
         ahead = max(1.0 - abs(lateral_error) / p.patience, 0.0) * min(p.slide_along * dt, p.along_share * d)
-        along, across = _within(c * dx + s * dy, ahead), _within(sideways, aside)
+        along, across = _at_most(c * dx + s * dy, ahead, sideways, aside)
         turn = _within(wrap(wanted.yaw - at.yaw), min(p.turn * dt, p.turn_share * d))
         pose = SE2(at.x + c * along - s * across, at.y + s * along + c * across, wrap(at.yaw + turn))
         self.followed = pose @ T_odom_drive.inverse()
@@ -231,6 +218,12 @@ class PathAnchor:
     def jump(self) -> None:
         """Follow the wanted tie at once (allowed at standstill only)."""
         self.followed = self.T_map_odom
+
+
+def _at_most(along: float, ahead: float, across: float, aside: float) -> tuple[float, float]:
+    """Both in the same proportion: so the path stays between the two ties in bends as well."""
+    share = min(1.0, ahead / max(abs(along), 1e-9), aside / max(abs(across), 1e-9))
+    return share * along, share * across
 
 
 def _within(value: float, limit: float) -> float:

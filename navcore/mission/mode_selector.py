@@ -22,7 +22,6 @@ class ModeSelectorParams:
         seen_end_zone: the same where the camera has seen that end, m.
         again: a row seen to go on for more than this takes the robot back into it, m (hysteresis to `end_zone`).
         clear: distance past the row's end at which the row is left and GNSS may take over, m.
-        carried: after so much on odometry alone GNSS takes over in a bend too, m.
         gnss_std: position 1-sigma at which GNSS may take over, m.
         gnss_streak: good epochs in a row before it does.
     """
@@ -33,7 +32,6 @@ class ModeSelectorParams:
     seen_end_zone: float = 4.0
     again: float = 5.0
     clear: float = 1.0
-    carried: float = 22.0
     gnss_std: float = 0.12
     gnss_streak: int = 5
 
@@ -48,8 +46,6 @@ class ModeFacts:
         row_streak: consecutive observations that are valid and agree with the expected row.
         row_age_s: age of the last such observation, None if there was none.
         row_follows: the headland leads to another row: its place is known best from the row that is left.
-        straight: the path is straight here; in a bend a change of source is an error to the side.
-        carried: driven on odometry alone, m.
         turn_follows: the straight way out of the row goes over into a turn on the headland.
         looks: the camera shows pictures, whether there is a row in them or not.
         seen_end: distance ahead at which the camera sees the row end, None if it goes on.
@@ -62,8 +58,6 @@ class ModeFacts:
     to_end: float | None
     row_follows: bool
     turn_follows: bool
-    straight: bool
-    carried: float
     row_streak: int
     row_age_s: float | None
     looks: bool
@@ -128,7 +122,8 @@ def _left(f: ModeFacts, p: ModeSelectorParams) -> bool:
 
 
 def _clear(f: ModeFacts, p: ModeSelectorParams) -> bool:
-    here = f.segment in (SegmentKind.EXIT, SegmentKind.ROAD) and (f.straight or f.carried > p.carried)
+    """In a bend too: the path slides from where it lay on the row to where it is drawn, and never leaves both."""
+    here = f.segment in (SegmentKind.EXIT, SegmentKind.HEADLAND, SegmentKind.ROAD)
     return _left(f, p) and not f.row_follows and here
 
 

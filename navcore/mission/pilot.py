@@ -110,7 +110,6 @@ class Pilot:
         self.carried = self.carried + distance if self.mode in CARRIED else 0.0
         if self.mode in CARRIED:
             self._take_drift(self._at, at)
-            self._take_along(at)
         self._at = at
         return distance
 
@@ -121,13 +120,6 @@ class Pilot:
             return
         moved = ends[1].x - ends[0].x, ends[1].y - ends[0].y
         self.anchor.drift(before.T_odom_base, now.T_odom_base, moved)
-
-    def _take_along(self, at: Position) -> None:
-        """Past the row's end GNSS that is sure says how far the robot is along it."""
-        known, to_end = at.surely_at(self.params.drift_std), self.to_end()
-        left = to_end is None or to_end <= -self.params.mode.clear
-        if known is not None and left and at.gnss_good(self.params.mode):
-            self.anchor.take_along(known @ at.T_odom_base.inverse(), self.driving_pose(at.T_odom_base))
 
     def _see(self, seen: RowObservation, T_odom_drive: SE2) -> None:
         """Judge what the camera saw by the row that is meant, and correct the anchor while driving on it."""
@@ -241,8 +233,6 @@ class Pilot:
             to_end=self.to_end(),
             row_follows=self.leg.row_follows(self.place.s),
             turn_follows=self.leg.turn_follows(self.place.s),
-            straight=self.mode in CARRIED and self.leg.straight_at(self.place.s, self.params.straight),
-            carried=self.carried,
             row_streak=self.row.streak,
             row_age_s=self.row.age_s(at.now_ns),
             looks=self.row.looks(at.now_ns),

@@ -21,7 +21,6 @@ class PilotParams:
         drift_std: position 1-sigma at which GNSS tells how odometry drifts while the path is carried by it, m.
         turned_to: by so much the robot may be turned away from the next row that it drives up to, rad, for the camera
             to say where that row lies.
-        straight: metres before and behind the robot on which the path must not turn for GNSS to take over.
         end_std: 1-sigma of the row end's distance as the camera sees it, m.
         seen_range: plants further away say nothing sure about where the row ends, m.
         seen_share: share of the distance up to which the row is seen to go on that is believed: a camera that pitches
@@ -34,7 +33,6 @@ class PilotParams:
     look_out: float = 4.0
     drift_std: float = 0.05
     turned_to: float = 0.7
-    straight: float = 2.0
     end_std: float = 0.4
     seen_range: float = 7.0
     seen_share: float = 0.9

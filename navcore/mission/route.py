@@ -13,8 +13,6 @@ from navcore.errors import MissionError
 from navcore.geometry.polyline import Polyline
 from navcore.messages import MissionPlan, PathSegment, SegmentKind
 
-# A path that turns by less is straight, rad.
-STRAIGHT = 0.2
 ROW_SEGMENTS = frozenset({SegmentKind.ENTRY, SegmentKind.ROW, SegmentKind.EXIT})
 
 
@@ -88,14 +86,6 @@ class Leg:
         i = self.segment_index(s)
         kinds = [x.kind for x in self.segments[i : i + 2]]
         return kinds == [SegmentKind.EXIT, SegmentKind.HEADLAND]
-
-    def straight_at(self, s: float, reach: float) -> bool:
-        """Whether the path turns by less than `STRAIGHT` within `reach` metres before and behind `s`."""
-        if s < reach and self.first > 0:
-            return False  # the robot has just turned back
-        spots = np.linspace(max(s - reach, 0.0), min(s + reach, self.length), 9)
-        headings = np.unwrap([self.line.heading_at(float(spot)) for spot in spots])
-        return float(np.ptp(headings)) < STRAIGHT
 
     def speed(self, s: float) -> float:
         """Wanted speed at arc length `s`, m/s."""

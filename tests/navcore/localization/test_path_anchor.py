@@ -46,24 +46,6 @@ def test_row_end_corrects_the_place_along_the_row() -> None:
     assert ROW.coordinates(anchor.T_map_odom @ odom).x == pytest.approx(wanted, abs=0.1)
 
 
-def test_sure_gnss_moves_the_robot_along_the_row_and_not_across_it() -> None:
-    anchor, odom = anchored(), SE2(8.0, 3.0, 0.25)
-    anchor.see_row(ROW, odom, offset=0.4, heading=-0.05, offset_std=0.03, heading_std=0.01)
-    before = ROW.coordinates(anchor.T_map_odom @ odom)
-    gnss = ROW.pose(SE2(before.x + 0.7, before.y + 0.5, before.yaw))
-    anchor.take_along(gnss @ odom.inverse(), odom)
-    after = ROW.coordinates(anchor.T_map_odom @ odom)
-    assert (after.x, after.y) == pytest.approx((before.x + 0.7, before.y), abs=1e-6)  # m
-
-
-def test_gnss_that_is_metres_off_along_the_row_is_not_taken() -> None:
-    anchor, odom = anchored(), SE2(8.0, 3.0, 0.25)
-    anchor.see_row(ROW, odom, offset=0.4, heading=-0.05, offset_std=0.03, heading_std=0.01)
-    before = ROW.coordinates(anchor.T_map_odom @ odom)
-    anchor.take_along(ROW.pose(SE2(before.x + 6.0, before.y, before.yaw)) @ odom.inverse(), odom)
-    assert ROW.coordinates(anchor.T_map_odom @ odom).x == pytest.approx(before.x, abs=1e-6)  # m
-
-
 def test_a_row_that_goes_on_holds_the_robot_back_and_never_pushes_it() -> None:
     """Wheels that slip by 7 % tell 4 m too many in a row of 60 m."""
     anchor, odom = anchored(), SE2(8.0, 3.0, 0.25)
@@ -118,6 +100,19 @@ def test_followed_pose_arrives() -> None:
         pose = anchor.slide(odom, 0.02, 0.01, 0.3)
     wanted = anchor.T_map_odom @ odom
     assert (pose.x, pose.y, pose.yaw) == pytest.approx((wanted.x, wanted.y, wanted.yaw), abs=1e-6)
+
+
+@given(st.floats(-1.2, 1.2), st.floats(-1.2, 1.2), st.floats(-3, 3))
+def test_the_path_slides_straight_from_one_tie_to_the_other_whichever_way_the_robot_heads(
+    dx: float, dy: float, heading: float
+) -> None:
+    """Or in a bend it would lie beside both."""
+    anchor, odom = anchored(), SE2(8.0, 3.0, 0.25)
+    anchor.follow(SE2(2.0 + dx, 1.0 + dy, 0.1))
+    before = anchor.followed @ odom
+    for _ in range(40):
+        now = anchor.slide(odom, 0.02, 0.01, heading)
+        assert (now.x - before.x) * dy - (now.y - before.y) * dx == pytest.approx(0.0, abs=1e-6)  # m^2
 
 
 def test_a_place_put_back_along_the_row_does_not_pull_a_turned_robot_off_its_line() -> None:

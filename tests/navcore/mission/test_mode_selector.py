@@ -10,8 +10,8 @@ from navcore.mission.mode_selector import ModeFacts, ModeSelectorParams, select_
 
 PARAMS = ModeSelectorParams()
 OPEN_ROAD = ModeFacts(
-    segment=SegmentKind.ROAD, to_start=None, to_end=None, row_follows=False, turn_follows=False, straight=True,
-    carried=0.0, row_streak=0, row_age_s=None, looks=True, seen_end=None, gnss_std=0.02, gnss_streak=100,
+    segment=SegmentKind.ROAD, to_start=None, to_end=None, row_follows=False, turn_follows=False,
+    row_streak=0, row_age_s=None, looks=True, seen_end=None, gnss_std=0.02, gnss_streak=100,
 )  # fmt: skip
 BEFORE_ROW = replace(OPEN_ROAD, segment=SegmentKind.ENTRY, to_start=3.0, to_end=63.0, row_streak=5, row_age_s=0.1)
 IN_ROW = replace(BEFORE_ROW, segment=SegmentKind.ROW, to_start=-30.0, to_end=30.0, gnss_std=1.5, gnss_streak=0)
@@ -87,11 +87,10 @@ def test_on_the_way_to_the_next_row_gnss_does_not_move_the_path_off_the_row_just
     assert mode_after(NavMode.ROW_END, replace(LEFT_ROW, row_follows=True)) is NavMode.ROW_END
 
 
-def test_gnss_takes_over_on_the_straight_but_not_for_ever() -> None:
-    in_bend = replace(LEFT_ROW, segment=SegmentKind.ROAD, straight=False)
-    assert mode_after(NavMode.HEADLAND, in_bend) is NavMode.HEADLAND
-    assert mode_after(NavMode.HEADLAND, replace(in_bend, straight=True)) is NavMode.GNSS_PATH
-    assert mode_after(NavMode.HEADLAND, replace(in_bend, carried=23.0)) is NavMode.GNSS_PATH
+def test_out_of_a_row_gnss_takes_over_wherever_it_is_sure() -> None:
+    for segment in (SegmentKind.EXIT, SegmentKind.HEADLAND, SegmentKind.ROAD):
+        assert mode_after(NavMode.HEADLAND, replace(LEFT_ROW, segment=segment)) is NavMode.GNSS_PATH
+    assert mode_after(NavMode.HEADLAND, replace(LEFT_ROW, gnss_std=0.3)) is NavMode.HEADLAND
 
 
 def test_the_row_is_left_on_the_straight_before_the_turn_and_not_in_it() -> None:

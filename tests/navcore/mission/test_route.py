@@ -29,14 +29,3 @@ def test_after_the_first_row_of_a_row_change_another_row_follows_and_after_the_s
 
 def test_after_backing_out_of_a_row_no_row_follows() -> None:
     assert [leg.row_follows(s) for leg, s in exits(RowExit.REVERSE)] == [False]
-
-
-def test_a_path_is_straight_away_from_its_bends_and_never_where_the_robot_has_just_turned_back() -> None:
-    (leg, s), *_ = exits(RowExit.NEXT_ROW)
-    assert leg.straight_at(s - 10.0, 2.0)
-    headland = next(i for i, x in enumerate(leg.segments) if x.kind is SegmentKind.HEADLAND)
-    turn = (leg.segment_ends[headland - 1] + leg.segment_ends[headland]) / 2
-    assert not leg.straight_at(turn, 2.0)
-    back = next(leg for leg, _ in exits(RowExit.REVERSE))
-    assert not back.straight_at(0.5, 2.0)
-    assert back.straight_at(10.0, 2.0)
