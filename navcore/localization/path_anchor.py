@@ -85,13 +85,14 @@ class PathAnchor:
     """Ties `map` to `odom` by whichever source the robot drives on. Poses are of the driving frame.
 
     `put_back` are the metres by which rows have put the robot back, less those ahead: what the wheels told too many.
+    `left` is the tie by which the last row was left, carried on by odometry alone.
     `row_heading` is the direction in `map` of the row seen last, rad: along and across it the variances are meant.
     """
 
     def __init__(self, T_map_odom: SE2, params: PathAnchorParams) -> None:
         self.params = params
         self.T_map_odom = T_map_odom
-        self.followed = T_map_odom
+        self.followed = self.left = T_map_odom
         self.var_lateral = self.var_heading = self.var_along = 0.0
         self.put_back = self.row_heading = 0.0
         self.unsure()
@@ -109,6 +110,14 @@ class PathAnchor:
         self.var_lateral = max(self.var_lateral, p.next_lateral**2)
         self.var_heading, self.var_along = p.map_heading**2, p.map_along**2
         self._driven = self._held_back = 0.0
+        self.left = self.T_map_odom
+
+    @property
+    def left_stds(self) -> tuple[float, float]:
+        """1-sigma of where the next row lies by `left`: across it, m, and its direction, rad."""
+        p = self.params
+        across = math.sqrt(p.next_lateral**2 + p.growth_lateral**2 * self._driven)
+        return across, math.sqrt(p.map_heading**2 + p.growth_heading**2 * self._driven)
 
     def drive(self, distance: float) -> None:
         """Let the uncertainty grow over a driven distance, m."""
@@ -126,7 +135,7 @@ class PathAnchor:
         """The robot has moved by `moved` m in `map`, whatever the wheels say; its turn is the gyro's."""
         before, now = self.T_map_odom @ T_odom_before, self.T_map_odom @ T_odom_now
         slip = SE2(before.x + moved[0] - now.x, before.y + moved[1] - now.y, 0.0)
-        self.T_map_odom = slip @ self.T_map_odom
+        self.T_map_odom, self.left = slip @ self.T_map_odom, slip @ self.left
 
     def see_row(
         self, row: RowLine, T_odom_drive: SE2, offset: float, heading: float, offset_std: float, heading_std: float

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 from navcore.geometry.angles import wrap
@@ -20,6 +21,7 @@ class RowEvidenceParams:
         gate: largest disagreement with the expected row, as a share of the corridor width, in (0, 0.5): beyond half a
             width the neighbouring row would be the nearer one. It holds by the tie to what was seen before, and
             outside the row by GNSS as well: a fit that begins between two rows may creep over to the wrong one.
+        sigmas: nor may it be further off, or turned by more, than so many 1-sigma of what is expected.
         heading_gate: largest disagreement of the direction, rad: plants on a lattice stand in line crosswise too.
         width_gate: largest disagreement of its width, as a share: two rows side by side are no row.
         min_quality: 0 to 1.
@@ -27,10 +29,22 @@ class RowEvidenceParams:
     """
 
     gate: float = 0.45
+    sigmas: float = 3.0
     heading_gate: float = 0.16
     width_gate: float = 0.3
     min_quality: float = 0.15
     looks_s: float = 0.5
+
+
+@dataclass(frozen=True, slots=True)
+class Doubt:
+    """1-sigma of where a row is expected: across it, m, and its direction, rad."""
+
+    lateral: float
+    heading: float
+
+
+NO_IDEA = Doubt(math.inf, math.inf)
 
 
 class RowEvidence:
@@ -46,23 +60,27 @@ class RowEvidence:
         self.agreeing: RowObservation | None = None
         self.streak = 0
 
-    def judge(self, seen: RowObservation, row: RowLine, expected: tuple[SE2, ...], width: float) -> bool:
+    def judge(
+        self, seen: RowObservation, row: RowLine, expected: tuple[SE2, ...], width: float, doubt: Doubt = NO_IDEA
+    ) -> bool:
         """Take one observation; True if it is valid and of the row that is meant.
 
-        `expected` are the poses of the driving frame in `map` at the time of capture, by all who know it.
+        `expected` are the poses of the driving frame in `map` at the time of capture, by all who know it, to `doubt`.
         """
         self.newest = seen
-        agrees = all(self._agrees(seen, row.coordinates(pose), width) for pose in expected)
+        p = self.params
+        reach = min(p.gate * width, p.sigmas * doubt.lateral), min(p.heading_gate, p.sigmas * doubt.heading)
+        agrees = all(self._agrees(seen, row.coordinates(pose), width, reach) for pose in expected)
         self.streak = self.streak + 1 if agrees else 0
         if agrees:
             self.agreeing = seen
         return agrees
 
-    def _agrees(self, seen: RowObservation, expected: SE2, width: float) -> bool:
+    def _agrees(self, seen: RowObservation, expected: SE2, width: float, reach: tuple[float, float]) -> bool:
         if not seen.valid or seen.offset is None or seen.heading is None:
             return False
-        near = abs(-seen.offset - expected.y) <= self.params.gate * width
-        parallel = abs(wrap(-seen.heading - expected.yaw)) <= self.params.heading_gate
+        near = abs(-seen.offset - expected.y) <= reach[0]
+        parallel = abs(wrap(-seen.heading - expected.yaw)) <= reach[1]
         as_wide = seen.width is None or abs(seen.width - width) <= self.params.width_gate * width
         return near and parallel and as_wide and seen.quality >= self.params.min_quality
 

@@ -8,7 +8,7 @@ from navcore.geometry.polyline import Projection
 from navcore.geometry.se2 import SE2
 from navcore.localization.path_anchor import HALF_TURN, PathAnchor, RowLine
 from navcore.messages import CameraName, MissionPlan, ModeSwitch, NavMode, PathSegment, RowObservation, SegmentKind
-from navcore.mission.evidence import RowEvidence
+from navcore.mission.evidence import NO_IDEA, Doubt, RowEvidence
 from navcore.mission.mode_selector import ModeFacts, select_mode, start_reason
 from navcore.mission.pilot_params import PilotParams
 from navcore.mission.position import Position
@@ -127,7 +127,8 @@ class Pilot:
         if row is None or segment is None or seen.camera is not self.camera():
             return
         expected = self._expected(T_odom_drive)
-        if not self.row.judge(seen, row, expected, segment.corridor_width or 3.0):
+        doubt = Doubt(*self.anchor.left_stds) if self.mode is NavMode.HEADLAND else NO_IDEA
+        if not self.row.judge(seen, row, expected, segment.corridor_width or 3.0, doubt):
             return
         turned_to = self.mode is NavMode.HEADLAND and self._turned_to_row(row, T_odom_drive)
         if (self.mode in ON_CAMERA or turned_to) and seen.offset is not None and seen.heading is not None:
@@ -151,8 +152,13 @@ class Pilot:
             self.anchor.see_no_end(row, T_odom_drive, length - sure)
 
     def _expected(self, T_odom_drive: SE2) -> tuple[SE2, ...]:
-        """Poses of the driving frame at a capture: by the anchor, and before the entrance by good GNSS too."""
+        """Poses of the driving frame at a capture: by the anchor, and before the entrance by what led there too.
+
+        In a turn a fit may begin between two rows and creep over to the wrong one, taking the anchor with it.
+        """
         at, by_anchor = self._at, self.anchor.T_map_odom @ T_odom_drive
+        if self.mode is NavMode.HEADLAND:
+            return by_anchor, self.anchor.left @ T_odom_drive
         on_the_way_in = self.mode in (NavMode.GNSS_PATH, NavMode.ROW_ENTRY) and self._comes_from_gnss
         if at.T_map_base is None or not on_the_way_in or not at.gnss_good(self.params.mode):
             return (by_anchor,)

@@ -32,7 +32,7 @@ class PilotParams:
     search: float = 3.0
     look_out: float = 4.0
     drift_std: float = 0.05
-    turned_to: float = 0.7
+    turned_to: float = 0.35
     end_std: float = 0.4
     seen_range: float = 7.0
     seen_share: float = 0.9

@@ -38,7 +38,9 @@ class CorridorTrackerParams:
             stands does not see by remembering.
         lost_share, lost_frames: a track that explains less than that share of the near objects in so many pictures
             in a row is dropped.
-        wrong_row: a corridor further from the prior than that share of the width is another row.
+        wrong_row: a corridor further from the prior than that share of the width is another row;
+        wrong_sigmas, wrong_least: so is one by so many 1-sigma of the prior, but not nearer than that, m: in a turn a
+            fit begins between two rows, and creeps over to the wrong one.
         wrong_heading_deg: one that runs that much off the prior is none: plants on a lattice stand in line crosswise
             too.
         wrong_width: a corridor wider or narrower than told by that share and by 3-sigma is none: a fit can creep over
@@ -69,6 +71,8 @@ class CorridorTrackerParams:
     lost_share: float = 0.34
     lost_frames: int = 4
     wrong_row: float = 0.5
+    wrong_sigmas: float = 3.0
+    wrong_least: float = 0.5
     wrong_heading_deg: float = 9.0
     wrong_width: float = 0.22
     max_prior_std: float = 0.3
@@ -140,10 +144,16 @@ def moved(track: Track, motion: SE2, prior: RowPrior | None, p: CorridorTrackerP
     )  # fmt: skip
 
 
+def furthest(prior: RowPrior | None, width: float, p: CorridorTrackerParams) -> float:
+    """Distance from the prior at which a corridor is another row, m."""
+    by_width = p.wrong_row * width
+    return by_width if prior is None else min(by_width, max(p.wrong_sigmas * prior.std, p.wrong_least))
+
+
 def other_row(track: Track, prior: RowPrior | None, p: CorridorTrackerParams) -> bool:
     """Whether the corridor lies or runs too far from the expected one to be it. A vague prior cannot say so."""
     if prior is None or prior.std > p.max_prior_std * track.state[2]:
         return False
-    aside = abs(track.state[0] - prior.offset) > p.wrong_row * track.state[2]
+    aside = abs(track.state[0] - prior.offset) > furthest(prior, float(track.state[2]), p)
     askew = abs(wrap(track.state[1] - prior.heading)) > math.radians(p.wrong_heading_deg)
     return bool(aside or askew)

@@ -16,6 +16,7 @@ from navcore.perception.corridor_track import (
     Track,
     Width,
     expected,
+    furthest,
     moved,
     other_row,
     told_width,
@@ -74,7 +75,7 @@ class CorridorTracker:
         if math.sqrt(covariance[0, 0]) > self._params.max_prior_std * mean[2]:
             return _nothing(corners, "the row's expected place is too vague to tell it from its neighbours")
         turn = math.radians(self._params.wrong_heading_deg) if prior is not None else math.pi / 2
-        reach = (self._params.wrong_row * float(mean[2]), turn)
+        reach = (furthest(prior, float(mean[2]), self._params), turn)
         corridor = self._fit.acquire(corners.feet, mean, _inverse(covariance), reach)
         reason = self._too_little(corridor, prior, len(corners))
         track = Track(state=corridor.state, covariance=corridor.covariance)

@@ -10,7 +10,7 @@ import pytest
 from navcore.geometry.se2 import SE2
 from navcore.localization.path_anchor import RowLine
 from navcore.messages import CameraName, RowObservation
-from navcore.mission.evidence import RowEvidence, RowEvidenceParams
+from navcore.mission.evidence import Doubt, RowEvidence, RowEvidenceParams
 
 ROW = RowLine(0.0, 0.0, 0.0)
 SEEN = RowObservation(
@@ -20,6 +20,14 @@ SEEN = RowObservation(
 
 def judged(seen: RowObservation, *expected: SE2) -> bool:
     return RowEvidence(RowEvidenceParams()).judge(seen, ROW, expected or (SE2(5.0, -0.1, 0.0),), 3.0)
+
+
+def test_a_row_a_quarter_of_a_width_away_is_another_one_where_its_place_is_well_known() -> None:
+    """A fit that began between two rows, in a turn, once took the robot to the wrong one."""
+    evidence, expected = RowEvidence(RowEvidenceParams()), (SE2(5.0, 0.7, 0.0),)
+    assert evidence.judge(SEEN, ROW, expected, 3.0, Doubt(0.45, 0.05))
+    assert not evidence.judge(SEEN, ROW, (SE2(5.0, -0.1, 0.1),), 3.0, Doubt(0.45, 0.03))
+    assert not evidence.judge(SEEN, ROW, expected, 3.0, Doubt(0.15, 0.05))
 
 
 def test_the_row_where_it_is_expected_is_the_one_that_is_meant() -> None:
