@@ -32,8 +32,9 @@ def render_dataset(
 
     The same seed gives the same pictures, whatever the number of processes. Sets of different seeds share no farm;
     use one seed each for training, validation and test. Beside COCO's fields an annotation has `ignore` (too far,
-    small or hidden to count), `visible` (share), `range` (m), `foot_visible`, and `foot` (u, v px) where the foot is
-    in the picture and nearly seen; an image has `season`, `light`, `trellis` and `place`.
+    small or hidden to count, or of too far a row), `visible` (share), `range` (m), `rows_nearer` (count),
+    `foot_visible`, and `foot` (u, v px) where the foot is in the picture and nearly seen; an image has `season`,
+    `light`, `trellis` and `place`.
 
     Raises InputError for a count or seed that makes no sense.
     """
@@ -108,7 +109,8 @@ def _annotation(image: int, seen: RenderedObject, frame: RenderedFrame) -> dict[
     annotation = {
         "image_id": image, "category_id": CATEGORIES[seen.kind], "area": width * height,
         "bbox": [seen.x1, seen.y1, width, height], "iscrowd": 0, "ignore": int(seen.ignore),
-        "visible": round(seen.visible, 3), "range": round(seen.range, 2), "foot_visible": seen.foot_visible,
+        "visible": round(seen.visible, 3), "range": round(seen.range, 2), "rows_nearer": seen.rows_nearer,
+        "foot_visible": seen.foot_visible,
     }  # fmt: skip
     hidden = seen.foot_v - seen.y2
     if seen.foot_v <= frame.image.shape[0] and abs(hidden) <= MOST_HIDDEN_SHARE * height:
