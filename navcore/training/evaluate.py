@@ -14,6 +14,9 @@ from navcore.training.average_precision import Found, mean_average_precision
 from navcore.training.foot_scores import FootScores, foot_scores
 from navcore.training.samples import Labels, Sample
 
+# The average precision needs the whole curve, so also what the robot would not believe.
+LOW_THRESHOLD = 0.05
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Scores:
