@@ -56,6 +56,25 @@ def mean_average_precision(found: list[Found], labels: list[Labels], min_overlap
     return float(np.nanmean(values)) if np.isfinite(values).any() else float("nan")
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Hits:
+    """Of detections that are all meant: `true` ones, those that were `meant`, and objects that were `asked` for."""
+
+    true: int
+    meant: int
+    asked: int
+
+
+def hits(found: list[Found], labels: list[Labels], min_overlap: float = 0.5) -> Hits:
+    """Of both classes together; detections on ignored objects count neither way."""
+    true = meant = 0
+    for one, truth in zip(found, labels, strict=True):
+        verdicts = np.concatenate([judge(one.of_kind(k).boxes, truth, k, min_overlap) for k in (0, 1)])
+        true += int(np.count_nonzero(verdicts == TRUE))
+        meant += int(np.count_nonzero(verdicts != UNASKED))
+    return Hits(true=true, meant=meant, asked=sum(int(np.count_nonzero(~truth.ignore)) for truth in labels))
+
+
 def judge(boxes: Floats, truth: Labels, kind: int, min_overlap: float) -> Ints:
     """Verdict on each box (N, 4) of one class, best first; a true object is found once.
 
