@@ -83,6 +83,36 @@ def bench_loop(
         raise typer.Exit(1) from None
 
 
+@bench_app.command("detector")
+def bench_detector(
+    quick: Annotated[bool, typer.Option("--quick", help="A dozen frames per stage and light: 3 minutes.")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="A JSON list, one row a figure.")] = False,
+    variants: Annotated[
+        Path | None, typer.Option(metavar="FOLDER", help="Weights of published detectors: NAME.pt or NAME.onnx.")
+    ] = None,
+    processes: Annotated[int, typer.Option(min=1, max=64, help="Processes that render.")] = 1,
+) -> None:
+    """Our detector and the published ones on the same rendered frames of unseen farms, 3 stages x 3 lights."""
+    import tempfile
+    from dataclasses import replace
+
+    from navcore.bench.detector import QUICK, DetectorBenchParams, run_bench
+    from navcore.bench.detector_figures import detector_figures
+    from navcore.bench.provenance import commit, machine
+    from navcore.errors import RowpilotError
+
+    params = QUICK if quick else DetectorBenchParams()
+    params = replace(params, variants=variants, frames=replace(params.frames, processes=processes))
+    try:
+        with tempfile.TemporaryDirectory(prefix="rowpilot-detector-") as folder:
+            result = run_bench(params, Path(folder), lambda line: typer.echo(line, err=True))
+    except RowpilotError as error:
+        typer.echo(str(error), err=True)
+        raise typer.Exit(BAD_INPUT) from None
+    figures, made = detector_figures(result), (commit(), machine())
+    typer.echo(_report(figures, *made) if as_json else _lines(figures, *made))
+
+
 def _measure_loop(params: LoopParams, as_json: bool) -> None:
     import tempfile
     from contextlib import closing

@@ -9,7 +9,6 @@ import typer
 
 if TYPE_CHECKING:
     from navcore.training.augment import AugmentParams
-    from navcore.training.model import FootNetParams
 
 
 def register(app: typer.Typer) -> None:
@@ -20,8 +19,10 @@ def register(app: typer.Typer) -> None:
 def train(
     data: Annotated[Path, typer.Argument(help="Folder of training pictures with annotations.json (COCO).")],
     validation: Annotated[Path, typer.Argument(help="Folder of pictures that are not trained on.")],
-    out: Annotated[Path, typer.Option(help="Folder for last.pt, best.pt and feet.onnx.")] = Path("training"),
-    net: Annotated[str, typer.Option(help="Which network: small or large.")] = "small",
+    out: Annotated[Path, typer.Option(help="Folder for last.pt, best.pt and detector.onnx.")] = Path("training"),
+    net: Annotated[
+        str, typer.Option(help="small or large (ours), or as published: yolov8n, rescbam, eca, gam, sa.")
+    ] = "small",
     epochs: Annotated[int, typer.Option(min=1, help="Passes over the training pictures.")] = 24,
     minutes: Annotated[float | None, typer.Option(min=0.05, help="No longer than so.")] = None,
     batch: Annotated[int, typer.Option(min=2, help="Pictures per step.")] = 12,
@@ -32,35 +33,31 @@ def train(
     seed: Annotated[int, typer.Option(help="Of weights, order and augmentation.")] = 1,
     device: Annotated[str, typer.Option(help="cpu, cuda, or auto: a GPU where there is one.")] = "auto",
     threads: Annotated[int, typer.Option(min=1, help="CPU threads.")] = 1,
+    validate_every: Annotated[
+        float, typer.Option(min=0.0, max=1.0, help="Share of the run after which to validate; 0: every epoch.")
+    ] = 0.0,
     resume: Annotated[bool, typer.Option(help="Go on from OUT/last.pt.")] = False,
 ) -> None:
     """Train the trunk and post detector, keep the best weights, export them for the robot and print their scores."""
     from navcore.errors import RowpilotError
+    from navcore.training.architecture_choice import named_architecture
+    from navcore.training.ask_rule import TRAINED
     from navcore.training.samples import read_samples
     from navcore.training.trainer import Trainer, TrainerParams
 
     try:
         params = TrainerParams(
             epochs=epochs, minutes=minutes, batch=batch, seed=seed, device=device, threads=threads,
-            net=_named(net), augment=_cropped(crop),
+            validate_every=validate_every, architecture=named_architecture(net), augment=_cropped(crop),
         )  # fmt: skip
-        trainer = Trainer(out, read_samples(data), read_samples(validation), params)
+        trainer = Trainer(out, read_samples(data, TRAINED), read_samples(validation), params)
         if resume:
             trainer.resume()
         best = trainer.run(typer.echo)
-        _ship(best, out / "feet.onnx", validation)
+        _ship(best, out / "detector.onnx", validation)
     except RowpilotError as error:
         typer.echo(str(error), err=True)
         raise typer.Exit(1) from error
-
-
-def _named(name: str) -> FootNetParams:
-    from navcore.errors import InputError
-    from navcore.training.model import NETS
-
-    if name not in NETS:
-        raise InputError(f"There is no network {name!r}; choose one of {', '.join(NETS)}.")
-    return NETS[name]
 
 
 def _cropped(size: tuple[int, int]) -> AugmentParams:
@@ -75,9 +72,9 @@ def _cropped(size: tuple[int, int]) -> AugmentParams:
 def _ship(best: Path, path: Path, validation: Path) -> None:
     """Export, compare with torch, and score what the robot would run."""
     from navcore.cli.score import score_table
-    from navcore.training.export import export_onnx
-    from navcore.training.trainer import load_net
+    from navcore.training.architecture_choice import load_trained
 
-    difference = export_onnx(load_net(best), path)
+    architecture, trained = load_trained(best)
+    difference = architecture.export(trained, path)
     typer.echo(f"{path}: {path.stat().st_size / 1e6:.2f} MB, differs from torch by at most {difference:.1e}")
     typer.echo(score_table(path, validation))

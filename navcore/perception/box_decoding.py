@@ -11,6 +11,7 @@ from navcore.messages import DetectedObject, ObjectKind
 
 Singles = NDArray[np.float32]
 Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
 
 # Order of the network's classes.
 KINDS = (ObjectKind.TRUNK, ObjectKind.POST)
@@ -23,51 +24,60 @@ class DecodingParams:
     Attributes:
         threshold: least confidence, 0 to 1.
         max_objects: best so many are kept.
-        max_overlap: two boxes with a higher intersection over union are one object, 0 to 1.
-        foot_distance_px: two feet closer than that, or than half the wider box, are one object.
+        max_overlap: two boxes of one class with a higher intersection over union are one object, 0 to 1.
+        max_overlap_of_kinds: likewise of two boxes of different classes; a vine may well stand before a post.
+        foot_distance_px, foot_distance_widths: two feet of one class that are closer than so many px, or so many
+            widths of the wider box, are one object.
     """
 
     threshold: float = 0.3
-    max_objects: int = 60
+    max_objects: int = 100
     max_overlap: float = 0.6
-    foot_distance_px: float = 4.0
+    max_overlap_of_kinds: float = 0.7
+    foot_distance_px: float = 3.0
+    foot_distance_widths: float = 0.5
 
 
 def decode(peaks: Singles, boxes: Singles, stride: int, params: DecodingParams) -> tuple[Floats, Floats, list[int]]:
     """Boxes (N, 4), confidences (N,) and class indices, best first; network pixels.
 
-    `peaks` (2, h, w) are probabilities at local maxima and 0 elsewhere, `boxes` (4, h, w) the foot's u and v from the
-    cell's middle and the logarithms of width and height, in cells.
+    `peaks` (2, h, w) are probabilities at local maxima, `stride` px apart, and 0 elsewhere. `boxes` (4 or 8, h / n,
+    w / n) are the foot's u and v from the cell's middle and the logarithms of width and height, in cells of
+    n `stride`: for all classes alike, or first for trunks and then for posts.
     """
     kinds, rows, columns = np.nonzero(peaks >= params.threshold)
     confidence = peaks[kinds, rows, columns].astype(np.float64)
     best = np.argsort(-confidence, kind="stable")[: params.max_objects]
-    kinds, rows, columns, confidence = kinds[best], rows[best], columns[best], confidence[best]
-    du, dv, log_width, log_height = boxes[:, rows, columns].astype(np.float64)
+    kinds, confidence, finer = kinds[best], confidence[best], peaks.shape[1] // boxes.shape[1]
+    rows, columns = rows[best] // finer, columns[best] // finer
+    values = boxes.reshape(-1, 4, *boxes.shape[1:])
+    du, dv, log_width, log_height = values[kinds % len(values), :, rows, columns].astype(np.float64).T
     half, height = np.exp(np.clip(log_width, -4, 6)) / 2, np.exp(np.clip(log_height, -4, 6))
     u, v = columns + 0.5 + du, rows + 0.5 + dv
-    found = np.column_stack((u - half, v - height, u + half, v)) * stride
-    kept = suppress(found, params)
+    found = np.column_stack((u - half, v - height, u + half, v)) * (stride * finer)
+    kept = suppress(found, kinds, params)
     return found[kept], confidence[kept], [int(kinds[i]) for i in kept]
 
 
-def suppress(boxes: Floats, params: DecodingParams) -> list[int]:
-    """Indices of the boxes (N, 4), best first, that are not a double of a better one; of whatever class."""
+def suppress(boxes: Floats, kinds: Ints, params: DecodingParams) -> list[int]:
+    """Indices of the boxes (N, 4) of classes (N,), best first, that are not a double of a better one."""
     kept: list[int] = []
     dropped = np.zeros(len(boxes), dtype=np.bool_)
-    for i, doubles in enumerate(_same(boxes[:, None], boxes, params)):
+    for i, doubles in enumerate(_same(boxes[:, None], boxes, kinds[:, None] == kinds, params)):
         if not dropped[i]:
             kept.append(i)
             dropped |= doubles
     return kept
 
 
-def _same(others: Floats, boxes: Floats, params: DecodingParams) -> NDArray[np.bool_]:
-    """Whether two boxes are one object; (..., 4) each, broadcast."""
+def _same(others: Floats, boxes: Floats, alike: NDArray[np.bool_], params: DecodingParams) -> NDArray[np.bool_]:
+    """Whether two boxes are one object; (..., 4) each, broadcast; `alike` where they are of one class."""
     wider = np.maximum(others[..., 2] - others[..., 0], boxes[..., 2] - boxes[..., 0])
     du = (others[..., 0] + others[..., 2] - boxes[..., 0] - boxes[..., 2]) / 2
-    feet = np.hypot(du, others[..., 3] - boxes[..., 3]) < np.maximum(params.foot_distance_px, wider / 2)
-    return np.asarray(feet | (overlap(others, boxes) > params.max_overlap))
+    near = np.maximum(params.foot_distance_px, params.foot_distance_widths * wider)
+    feet = np.hypot(du, others[..., 3] - boxes[..., 3]) < near
+    least = np.where(alike, params.max_overlap, params.max_overlap_of_kinds)
+    return np.asarray((feet & alike) | (overlap(others, boxes) > least))
 
 
 def overlap(boxes: Floats, others: Floats) -> Floats:

@@ -87,7 +87,15 @@ def _input_size(session: Any, path: Path) -> tuple[str, int, int]:
 
 
 def _stride(session: Any, width: int, path: Path) -> int:
+    """Pixels from cell to cell of the peaks; those are at least as fine as the boxes."""
     shapes = [output.shape for output in session.get_outputs()]
-    if len(shapes) != 2 or [s[1] for s in shapes if len(s) == 4] != [2, 4] or shapes[0][2:] != shapes[1][2:]:
+    channels = [s[1] for s in shapes if len(s) == 4 and all(isinstance(n, int) for n in s)]
+    if channels not in ([2, 4], [2, 8]) or not _finer(shapes[0][2:], shapes[1][2:]):
         raise ModelError(f"The model {path} is no trunk and post detector: its outputs are {shapes}.")
     return width // int(shapes[0][3])
+
+
+def _finer(fine: list[int], coarse: list[int]) -> bool:
+    """Whether a map of that size (h, w) has the same whole number of cells for each of the other's, both ways."""
+    times = fine[0] // coarse[0]
+    return times >= 1 and [times * n for n in coarse] == list(fine)

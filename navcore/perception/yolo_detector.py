@@ -34,6 +34,16 @@ class YoloParams:
     decoding: DecodingParams = DecodingParams()
 
 
+# As published: one trained here on trunks and posts, with YOLOv8's own idea of doubles (boxes of one class that
+# overlap by 0.7, of however many objects).
+PUBLISHED = YoloParams(
+    classes={ObjectKind.TRUNK: (0,), ObjectKind.POST: (1,)},
+    decoding=DecodingParams(
+        max_objects=300, max_overlap=0.7, max_overlap_of_kinds=1.0, foot_distance_px=0.0, foot_distance_widths=0.0
+    ),
+)
+
+
 class YoloDetector:
     """A `Detector`. The layout of the output tells itself: (1, 4 + C, N) of version 8 on, (1, N, 5 + C) before."""
 
@@ -71,7 +81,7 @@ class YoloDetector:
         kinds, confidence = per_kind.argmax(axis=0), per_kind.max(axis=0)
         found = np.flatnonzero((confidence >= self._params.decoding.threshold) & np.isfinite(boxes).all(axis=1))
         best = found[np.argsort(-confidence[found], kind="stable")][: 4 * self._params.decoding.max_objects]
-        kept = best[suppress(boxes[best], self._params.decoding)][: self._params.decoding.max_objects]
+        kept = best[suppress(boxes[best], kinds[best], self._params.decoding)][: self._params.decoding.max_objects]
         return boxes[kept], confidence[kept], [int(k) for k in kinds[kept]]
 
     def _check(self, name: str) -> None:

@@ -18,14 +18,16 @@ class LabelParams:
 
     Attributes:
         min_visible: share of the object's pixels that must be seen, 0 to 1.
-        min_height: of the box, as a share of the picture's height (10 px of 360).
+        min_height_px: of the box, in a picture 640 px wide.
         max_range: distance from the camera, m.
+        nearest_rows: objects of so many rows count, of those that are nearest to the camera.
         min_pixels: fewer visible pixels give no label at all.
     """
 
     min_visible: float = 0.4
-    min_height: float = 10 / 360
-    max_range: float = 15.0
+    min_height_px: float = 14.0
+    max_range: float = 12.0
+    nearest_rows: int = 2
     min_pixels: int = 4
 
 
@@ -37,9 +39,10 @@ class RenderedObject:
         x1, y1, x2, y2: box of its visible pixels, px, origin top left.
         visible: share of it that is not hidden, of what lies inside the picture.
         range: distance on the ground from the camera to its foot, m.
+        rows_nearer: how many rows are nearer to the camera than the object's; -1 for one that stands in no row.
         foot_visible: the lowest visible pixel is where it meets the ground.
         foot_u, foot_v: where its foot is in the picture, px, whether hidden or not.
-        ignore: too far, too small or too hidden to count.
+        ignore: too far, too small, too hidden or of too far a row to count.
     """
 
     kind: ObjectKind
@@ -49,6 +52,7 @@ class RenderedObject:
     y2: float
     visible: float
     range: float
+    rows_nearer: int
     foot_visible: bool
     foot_u: float
     foot_v: float
@@ -56,9 +60,13 @@ class RenderedObject:
 
 
 def label_objects(
-    view: View, owner: NDArray[np.int32], tubes: Floats, trunks: int, params: LabelParams
-) -> tuple[RenderedObject, ...]:
-    """Objects seen in an owner layer (H, W); tubes (N, 5, 4) are trunks first, then posts, numbered from 1."""
+    view: View, owner: NDArray[np.int32], tubes: Floats, trunks: int, rows_nearer: NDArray[np.int64],
+    params: LabelParams,
+) -> tuple[RenderedObject, ...]:  # fmt: skip
+    """Objects seen in an owner layer (H, W); tubes (N, 5, 4) are trunks first, then posts, numbered from 1.
+
+    `rows_nearer` (N,) as in `RenderedObject`.
+    """
     boxes = visible_boxes(owner, len(tubes) + 1)[1:]
     seen = np.flatnonzero(boxes[:, 4] >= params.min_pixels)
     box = boxes[seen].astype(np.float64)
@@ -68,18 +76,31 @@ def label_objects(
     away = np.hypot(tubes[seen, 0, 0] - view.centre[0], tubes[seen, 0, 1] - view.centre[1])
     at_foot = np.abs(box[:, 3] - foot[:, 1]) < np.maximum(2.0, 0.04 * (foot[:, 1] - head[:, 1]))
     at_foot &= foot[:, 1] <= view.height
-    small = box[:, 3] - box[:, 1] < params.min_height * view.height
-    ignore = (visible < params.min_visible) | small | (away > params.max_range)
+    small = box[:, 3] - box[:, 1] < params.min_height_px * view.width / 640
+    rank = rows_nearer[seen]
+    elsewhere = (rank < 0) | (rank >= params.nearest_rows)
+    ignore = (visible < params.min_visible) | small | (away > params.max_range) | elsewhere
     return tuple(
         RenderedObject(
             kind=ObjectKind.TRUNK if i < trunks else ObjectKind.POST, x1=b[0], y1=b[1], x2=b[2], y2=b[3], visible=v,
-            range=r, foot_visible=f, foot_u=u, foot_v=w, ignore=g,
+            range=r, rows_nearer=n, foot_visible=f, foot_u=u, foot_v=w, ignore=g,
         )
-        for i, b, v, r, f, (u, w, _), g in zip(
-            seen.tolist(), box.tolist(), visible.tolist(), away.tolist(), at_foot.tolist(), foot.tolist(),
-            ignore.tolist(), strict=True,
+        for i, b, v, r, n, f, (u, w, _), g in zip(
+            seen.tolist(), box.tolist(), visible.tolist(), away.tolist(), rank.tolist(), at_foot.tolist(),
+            foot.tolist(), ignore.tolist(), strict=True,
         )
     )  # fmt: skip
+
+
+def rows_nearer(view: View, line: NDArray[np.int64], lines: Floats) -> NDArray[np.int64]:
+    """For objects of the given lines (N,), how many lines (L, 4) pass nearer to the camera; -1 where `line` is."""
+    start, along = lines[:, :2], lines[:, 2:] - lines[:, :2]
+    to = np.array(view.centre[:2]) - start
+    share = np.clip((to * along).sum(axis=1) / np.maximum((along**2).sum(axis=1), 1e-9), 0.0, 1.0)
+    order = np.argsort(np.hypot(*(to - share[:, None] * along).T), kind="stable")
+    rank = np.empty(len(lines) + 1, dtype=np.int64)
+    rank[order], rank[-1] = np.arange(len(lines)), -1
+    return rank[line]
 
 
 def _pixels(view: View, rings: Floats) -> Floats:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from navcore.geometry.pinhole import PinholeCamera, rotation_from_rpy
 from navcore.messages import SimTruth
-from navcore.sim.camera_labels import LabelParams, RenderedObject, label_objects
+from navcore.sim.camera_labels import LabelParams, RenderedObject, label_objects, rows_nearer
 from navcore.sim.camera_light import LightParams
 from navcore.sim.orchard import Orchard
 from navcore.sim.render.buffers import View, new_layers, new_queue
@@ -129,7 +129,9 @@ class CameraRenderer:
     def _objects(self, view: View) -> tuple[RenderedObject, ...]:
         if self._params.labels is None:
             return ()
-        scene = self._scene
+        scene, orchard = self._scene, self._scene.orchard
+        line = np.concatenate((orchard.trunk_line, orchard.post_line))
         return label_objects(
-            view, self._layers.tag >> 4, scene.tubes, len(scene.orchard.trunks), self._params.labels
+            view, self._layers.tag >> 4, scene.tubes, len(orchard.trunks),
+            rows_nearer(view, line, orchard.plant_lines), self._params.labels,
         )  # fmt: skip

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 
 import torch
@@ -146,7 +147,7 @@ class _Draw:
 
     def factor(self, largest: float) -> Tensor:
         """From 1 / largest to largest, even in the logarithm."""
-        return torch.as_tensor(largest, device=self.device) ** self.uniform(-1.0, 1.0)
+        return (math.log(largest) * self.uniform(-1.0, 1.0)).exp()
 
     def chosen(self, share: float) -> Tensor:
         """A weight from 0 to 1 for that share of the pictures, 0 for the others."""

@@ -13,6 +13,9 @@ from navcore.training.samples import Labels
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
+# A detection is on the object whose foot is nearest to its own, if it is nearer than that, px.
+NEAR_PX = 8.0
+
 # What became of a detection.
 TRUE, FALSE, UNASKED = 1, 0, -1
 
@@ -53,19 +56,56 @@ def mean_average_precision(found: list[Found], labels: list[Labels], min_overlap
     return float(np.nanmean(values)) if np.isfinite(values).any() else float("nan")
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Hits:
+    """Of detections that are all meant: `true` ones, those that were `meant`, and objects that were `asked` for."""
+
+    true: int
+    meant: int
+    asked: int
+
+
+def hits(found: list[Found], labels: list[Labels], min_overlap: float = 0.5) -> Hits:
+    """Of both classes together; detections on ignored objects count neither way."""
+    true = meant = 0
+    for one, truth in zip(found, labels, strict=True):
+        verdicts = np.concatenate([judge(one.of_kind(k).boxes, truth, k, min_overlap) for k in (0, 1)])
+        true += int(np.count_nonzero(verdicts == TRUE))
+        meant += int(np.count_nonzero(verdicts != UNASKED))
+    return Hits(true=true, meant=meant, asked=sum(int(np.count_nonzero(~truth.ignore)) for truth in labels))
+
+
 def judge(boxes: Floats, truth: Labels, kind: int, min_overlap: float) -> Ints:
-    """Verdict on each box (N, 4) of one class, best first; a true object is found once."""
+    """Verdict on each box (N, 4) of one class, best first; a true object is found once.
+
+    What is no true one is still not wrong if it is on an ignored object: one of the two covers more than half of the
+    other, or no object that counts has its foot as near as the ignored one.
+    """
     counts = (truth.kinds == kind) & ~truth.ignore
-    open_truths, others = truth.boxes[counts], truth.boxes[~counts & truth.ignore]
+    open_truths, others = truth.boxes[counts], truth.boxes[truth.ignore]
+    at_ignored = _stands_at_ignored(boxes, truth)
     taken = np.zeros(len(open_truths), dtype=np.bool_)
     verdicts = np.full(len(boxes), FALSE, dtype=np.int64)
     for i, box in enumerate(boxes):
         fit = np.where(taken, 0.0, overlap(open_truths, box))
         if len(fit) and fit.max() >= min_overlap:
             taken[int(fit.argmax())], verdicts[i] = True, TRUE
-        elif np.any(np.maximum(_covered(others, box), _covered(box[None], others)) > 0.5):
+        elif at_ignored[i] or np.any(np.maximum(_covered(others, box), _covered(box[None], others)) > 0.5):
             verdicts[i] = UNASKED
     return verdicts
+
+
+def _stands_at_ignored(boxes: Floats, truth: Labels) -> NDArray[np.bool_]:
+    """Which of the boxes (N, 4) have their foot near an ignored object's, and nearer than to any that counts."""
+    away = np.hypot(*np.moveaxis(feet(boxes)[:, None] - feet(truth.boxes), 2, 0))
+    ignored = np.where(truth.ignore, away, np.inf).min(axis=1, initial=np.inf)
+    counted = np.where(truth.ignore, np.inf, away).min(axis=1, initial=np.inf)
+    return np.asarray((ignored <= NEAR_PX) & (ignored < counted))
+
+
+def feet(boxes: Floats) -> Floats:
+    """Middles (N, 2) of the boxes' lower edges."""
+    return np.column_stack(((boxes[:, 0] + boxes[:, 2]) / 2, boxes[:, 3]))
 
 
 def _covered(others: Floats, boxes: Floats) -> Floats:

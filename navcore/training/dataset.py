@@ -16,7 +16,7 @@ from navcore.errors import InputError
 from navcore.messages import ObjectKind
 from navcore.sim.camera_labels import LabelParams, RenderedObject
 from navcore.sim.camera_renderer import CameraRenderer, RenderedFrame, RenderParams, Scene
-from navcore.training.dataset_recipe import SceneRecipe, ShotRecipe, random_scene, random_shot
+from navcore.training.dataset_recipe import SceneRecipe, Setting, ShotRecipe, random_scene, random_shot
 
 SHOTS_PER_SCENE = 12
 CATEGORIES = {ObjectKind.TRUNK: 1, ObjectKind.POST: 2}
@@ -26,21 +26,25 @@ _Part = tuple[list[dict[str, Any]], list[dict[str, Any]]]
 
 
 def render_dataset(
-    folder: Path, *, count: int, seed: int, processes: int = 1, report: Callable[[str], None] | None = None
+    folder: Path, *, count: int, seed: int, processes: int = 1, setting: Setting = Setting(),
+    report: Callable[[str], None] | None = None,
 ) -> None:  # fmt: skip
     """Write `count` pictures to `folder`/images and their labels to `folder`/annotations.json.
 
     The same seed gives the same pictures, whatever the number of processes. Sets of different seeds share no farm;
     use one seed each for training, validation and test. Beside COCO's fields an annotation has `ignore` (too far,
-    small or hidden to count), `visible` (share), `range` (m), `foot_visible`, and `foot` (u, v px) where the foot is
-    in the picture and nearly seen; an image has `season`, `light`, `trellis` and `place`.
+    small or hidden to count, or of too far a row), `visible` (share), `range` (m), `rows_nearer` (count),
+    `foot_visible`, and `foot` (u, v px) where the foot is in the picture and nearly seen; an image has `season`,
+    `light`, `trellis` and `place`.
 
     Raises InputError for a count or seed that makes no sense.
     """
     if count < 1 or seed < 0:
         raise InputError("Ask for at least one picture and give a seed that is not negative.")
     (folder / "images").mkdir(parents=True, exist_ok=True)
-    orders = [_Order(folder, seed, n, min(n + SHOTS_PER_SCENE, count)) for n in range(0, count, SHOTS_PER_SCENE)]
+    orders = [
+        _Order(folder, seed, n, min(n + SHOTS_PER_SCENE, count), setting) for n in range(0, count, SHOTS_PER_SCENE)
+    ]
     document: dict[str, Any] = {
         "images": [], "annotations": [],
         "categories": [{"id": number, "name": str(kind)} for kind, number in CATEGORIES.items()],
@@ -62,6 +66,7 @@ class _Order:
     seed: int
     first: int
     end: int
+    setting: Setting
 
 
 def _in_processes(orders: list[_Order], processes: int) -> Iterator[_Part]:
@@ -85,7 +90,7 @@ def _render_scene(order: _Order) -> _Part:
 
 
 def _shots(order: _Order) -> Iterator[tuple[int, SceneRecipe, ShotRecipe, RenderedFrame]]:
-    recipe = random_scene(order.seed, order.first // SHOTS_PER_SCENE)
+    recipe = random_scene(order.seed, order.first // SHOTS_PER_SCENE, order.setting)
     scene = Scene(recipe.orchard, recipe.light)
     rng = np.random.default_rng((order.seed, order.first, 31))
     for number in range(order.first, order.end):
@@ -108,7 +113,8 @@ def _annotation(image: int, seen: RenderedObject, frame: RenderedFrame) -> dict[
     annotation = {
         "image_id": image, "category_id": CATEGORIES[seen.kind], "area": width * height,
         "bbox": [seen.x1, seen.y1, width, height], "iscrowd": 0, "ignore": int(seen.ignore),
-        "visible": round(seen.visible, 3), "range": round(seen.range, 2), "foot_visible": seen.foot_visible,
+        "visible": round(seen.visible, 3), "range": round(seen.range, 2), "rows_nearer": seen.rows_nearer,
+        "foot_visible": seen.foot_visible,
     }  # fmt: skip
     hidden = seen.foot_v - seen.y2
     if seen.foot_v <= frame.image.shape[0] and abs(hidden) <= MOST_HIDDEN_SHARE * height:

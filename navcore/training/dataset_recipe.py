@@ -46,12 +46,21 @@ class ShotRecipe:
     jpeg_quality: int
 
 
-def random_scene(seed: int, number: int) -> SceneRecipe:
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Setting:
+    """What all scenes of a set have in common; None: each its own."""
+
+    season: Season | None = None
+    light: LightName | None = None
+
+
+def random_scene(seed: int, number: int, setting: Setting = Setting()) -> SceneRecipe:
     """Scene `number` of a set. Sets of different seeds share no farm, and none is a farm that benches score on."""
     rng = np.random.default_rng((seed, number, 29))
     site = tuning_layout(LAYOUTS_PER_SEED * (seed + 1) + number, LAYOUTS)
-    orchard = build_orchard(site, _orchard_params(rng))
-    name = LightName(_pick(_LIGHT, rng))
+    orchard = build_orchard(site, _orchard_params(setting.season, rng))
+    drawn = LightName(_pick(_LIGHT, rng))
+    name = setting.light or drawn
     row = site.rows[0]
     along = math.atan2(row.end[1] - row.start[1], row.end[0] - row.start[0]) + math.pi * float(rng.integers(2))
     return SceneRecipe(site=site, orchard=orchard, light_name=name, light=_light(name, along, rng))
@@ -61,8 +70,9 @@ def _pick(shares: dict[Trellis, float] | dict[LightName, float], rng: np.random.
     return str(rng.choice([str(k) for k in shares], p=list(shares.values())))
 
 
-def _orchard_params(rng: np.random.Generator) -> OrchardParams:
-    season = list(Season)[int(rng.integers(len(Season)))]
+def _orchard_params(wanted: Season | None, rng: np.random.Generator) -> OrchardParams:
+    drawn = list(Season)[int(rng.integers(len(Season)))]
+    season = wanted or drawn
     return OrchardParams(
         seed=int(rng.integers(1 << 31)), season=season, trellis=Trellis(_pick(_TRELLIS, rng)),
         posts=list(PostKind)[int(rng.integers(len(PostKind)))], scatter_std=float(rng.uniform(0.01, 0.08)),

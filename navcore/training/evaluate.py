@@ -10,38 +10,52 @@ import numpy as np
 from navcore.messages import DetectedObject
 from navcore.perception.box_decoding import KINDS
 from navcore.perception.detector import Detector
-from navcore.training.average_precision import Found, mean_average_precision
+from navcore.training.average_precision import Found, Hits, hits, mean_average_precision
 from navcore.training.foot_scores import FootScores, foot_scores
 from navcore.training.samples import Labels, Sample
+
+# The average precision needs the whole curve, so also what the robot would not believe.
+LOW_THRESHOLD = 0.05
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Scores:
-    """Of `pictures` pictures: mean average precision at IoU 0.5, and the feet at the working threshold."""
+    """Of `pictures` pictures: mean average precision at IoU 0.5, and at the working threshold the boxes that hit with
+    that overlap, and the feet."""
 
     name: str
     pictures: int
     map50: float
+    hits: Hits
     feet: FootScores
 
 
 def evaluate(detector: Detector, samples: Sequence[Sample], threshold: float) -> tuple[Scores, ...]:
     """Scores of all pictures, then of each season and each light that is told. The detector must not cut at the
     threshold itself, or the average precision misses the tail of the curve."""
-    found = [_found(detector.detect(sample.image())) for sample in samples]
+    found = detect_all(detector, samples)
     groups = [("all", np.ones(len(samples), dtype=np.bool_))]
     for told in ([s.season for s in samples], [s.light for s in samples]):
         groups += [(name, np.array([t == name for t in told])) for name in sorted(set(told) - {""})]
     labels = [s.labels for s in samples]
-    return tuple(_scores(name, np.flatnonzero(mask).tolist(), found, labels, threshold) for name, mask in groups)
-
-
-def _scores(name: str, chosen: list[int], found: list[Found], labels: list[Labels], threshold: float) -> Scores:
-    own, truth = [found[i] for i in chosen], [labels[i] for i in chosen]
-    meant = [above(one, threshold) for one in own]
-    return Scores(
-        name=name, pictures=len(chosen), map50=mean_average_precision(own, truth), feet=foot_scores(meant, truth)
+    return tuple(
+        score(name, [found[i] for i in np.flatnonzero(mask)], [labels[i] for i in np.flatnonzero(mask)], threshold)
+        for name, mask in groups
     )
+
+
+def detect_all(detector: Detector, samples: Sequence[Sample]) -> list[Found]:
+    """What the detector finds in each picture."""
+    return [_found(detector.detect(sample.image())) for sample in samples]
+
+
+def score(name: str, found: list[Found], labels: list[Labels], threshold: float) -> Scores:
+    """Scores of what was found in pictures with those labels."""
+    meant = [above(one, threshold) for one in found]
+    return Scores(
+        name=name, pictures=len(found), map50=mean_average_precision(found, labels), hits=hits(meant, labels),
+        feet=foot_scores(meant, labels),
+    )  # fmt: skip
 
 
 def above(found: Found, threshold: float) -> Found:

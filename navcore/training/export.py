@@ -11,13 +11,13 @@ import torch
 from torch import Tensor, nn
 
 from navcore.errors import ModelError
-from navcore.training.model import INPUT_HEIGHT_PX, INPUT_WIDTH_PX, FootNet, peaks
+from navcore.training.model import INPUT_HEIGHT_PX, INPUT_WIDTH_PX, peaks
 
 
 class Deployed(nn.Module):
     """The network as it is shipped: probabilities at peaks instead of logits."""
 
-    def __init__(self, net: FootNet) -> None:
+    def __init__(self, net: nn.Module) -> None:
         super().__init__()
         self.net = net
 
@@ -26,7 +26,7 @@ class Deployed(nn.Module):
         return peaks(logits), boxes
 
 
-def export_onnx(net: FootNet, path: Path, *, max_difference: float = 1e-3) -> float:
+def export_onnx(net: nn.Module, path: Path, *, max_difference: float = 1e-3) -> float:
     """Write the network to `path`; the largest absolute difference of its outputs from torch on random pictures.
 
     Raises ModelError, and leaves no file, if that is more than `max_difference`.
@@ -47,7 +47,7 @@ def export_onnx(net: FootNet, path: Path, *, max_difference: float = 1e-3) -> fl
     return difference
 
 
-def largest_difference(net: FootNet, path: Path, *, pictures: int = 3, seed: int = 1) -> float:
+def largest_difference(net: nn.Module, path: Path, *, pictures: int = 3, seed: int = 1) -> float:
     """Largest absolute difference of the file's probabilities and box values from torch's.
 
     Peaks are compared before suppression of neighbours: a tie that rounds the other way is no difference.

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from navcore.training.average_precision import Found
+from navcore.training.average_precision import NEAR_PX, Found, feet
 from navcore.training.samples import Labels
 
 Floats = NDArray[np.float64]
@@ -33,13 +33,13 @@ class FootScores:
     bias_v_px: float
 
 
-def foot_scores(found: list[Found], labels: list[Labels], near_px: float = 8.0) -> FootScores:
+def foot_scores(found: list[Found], labels: list[Labels], near_px: float = NEAR_PX) -> FootScores:
     """Scores of detections that are all meant (already cut at the working threshold)."""
     errors, found_count, truths, meant = [np.zeros((0, 2))], 0, 0, 0
     for one, truth in zip(found, labels, strict=True):
-        pairs, unasked = _pairs(_feet(one.boxes), _feet(truth.boxes), truth.ignore, near_px)
+        pairs, unasked = _pairs(feet(one.boxes), feet(truth.boxes), truth.ignore, near_px)
         asked_pairs = [(i, j) for i, j in pairs if not truth.ignore[j]]
-        errors.extend(_feet(one.boxes)[i : i + 1] - _feet(truth.boxes)[j] for i, j in asked_pairs)
+        errors.extend(feet(one.boxes)[i : i + 1] - feet(truth.boxes)[j] for i, j in asked_pairs)
         found_count += len(asked_pairs)
         truths += int(np.count_nonzero(~truth.ignore))
         meant += len(one.boxes) - unasked
@@ -56,12 +56,8 @@ def foot_scores(found: list[Found], labels: list[Labels], near_px: float = 8.0) 
     )  # fmt: skip
 
 
-def _feet(boxes: Floats) -> Floats:
-    return np.column_stack(((boxes[:, 0] + boxes[:, 2]) / 2, boxes[:, 3]))
-
-
 def _pairs(
-    feet: Floats, truths: Floats, ignore: NDArray[np.bool_], near_px: float
+    found: Floats, truths: Floats, ignore: NDArray[np.bool_], near_px: float
 ) -> tuple[list[tuple[int, int]], int]:
     """Detections with the truth nearest to them, each truth once, best detection first; and how many are unasked.
 
@@ -69,7 +65,7 @@ def _pairs(
     """
     pairs: list[tuple[int, int]] = []
     taken, unasked = np.zeros(len(truths), dtype=np.bool_), 0
-    for i, foot in enumerate(feet):
+    for i, foot in enumerate(found):
         away = np.hypot(*(truths - foot).T)
         j = _nearest(away, ~taken & ~ignore, near_px)
         j = _nearest(away, ~taken & ignore, near_px) if j is None else j

@@ -22,7 +22,7 @@ class LossParams:
 
     foot: float = 1.0
     size: float = 0.5
-    overlap: float = 1.0
+    overlap: float = 2.0
     alpha: float = 2.0
     beta: float = 4.0
 
@@ -38,15 +38,15 @@ def focal_loss(logits: Tensor, heat: Tensor, alpha: float, beta: float) -> Tenso
 
 
 def box_loss(boxes: Tensor, wanted: Tensor, weight: Tensor, params: LossParams) -> Tensor:
-    """Weighted L1 and overlap of the box values (B, 4, h, w), per unit of weight (B, h, w)."""
-    per_value = torch.tensor((params.foot, params.foot, params.size, params.size), device=boxes.device)
-    error = ((boxes - wanted).abs() * per_value[:, None, None]).sum(dim=1)
+    """Weighted L1 and overlap of the box values (B, 2, 4, h, w), per unit of weight (B, 2, h, w)."""
+    u, v, width, height = (boxes - wanted).abs().unbind(dim=2)
+    error = params.foot * (u + v) + params.size * (width + height)
     error = error + params.overlap * (1.0 - overlap(boxes, wanted))
     return (error * weight).sum() / weight.sum().clamp(min=1)
 
 
 def overlap(boxes: Tensor, others: Tensor) -> Tensor:
-    """Intersection over union (B, h, w) of box values (B, 4, h, w) that stand in the same cells."""
+    """Intersection over union (B, 2, h, w) of box values (B, 2, 4, h, w) that stand in the same cells."""
     left, top, right, bottom = _sides(boxes)
     other_left, other_top, other_right, other_bottom = _sides(others)
     width = torch.minimum(right, other_right) - torch.maximum(left, other_left)
@@ -57,12 +57,12 @@ def overlap(boxes: Tensor, others: Tensor) -> Tensor:
 
 
 def _sides(boxes: Tensor) -> tuple[Tensor, Tensor, Tensor, Tensor]:
-    u, v, log_width, log_height = boxes.unbind(dim=1)
+    u, v, log_width, log_height = boxes.unbind(dim=2)
     half, height = log_width.clamp(-4, 6).exp() / 2, log_height.clamp(-4, 6).exp()
     return u - half, v - height, u + half, v
 
 
 def loss(logits: Tensor, boxes: Tensor, wanted: Targets, params: LossParams) -> Tensor:
-    """Total for a batch."""
+    """Total for a batch of the network's outputs."""
     where = focal_loss(logits, wanted.heat, params.alpha, params.beta)
-    return where + box_loss(boxes, wanted.boxes, wanted.weight, params)
+    return where + box_loss(boxes.view_as(wanted.boxes), wanted.boxes, wanted.weight, params)

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from navcore.errors import InputError
 from navcore.messages import ObjectKind
+from navcore.training.ask_rule import AskRule
 
 Floats = NDArray[np.float64]
 Image = NDArray[np.uint8]
@@ -52,8 +53,11 @@ class Sample:
         return np.asarray(image, dtype=np.uint8)
 
 
-def read_samples(folder: Path) -> tuple[Sample, ...]:
-    """All pictures of a set, in the order of their ids. Raises InputError for a set that cannot be used."""
+def read_samples(folder: Path, rule: AskRule | None = None) -> tuple[Sample, ...]:
+    """All pictures of a set, in the order of their ids; what is asked for goes by the rule, else by the set itself.
+
+    Raises InputError for a set that cannot be used.
+    """
     try:
         document = json.loads((folder / "annotations.json").read_text(encoding="utf-8"))
         kinds = {c["id"]: KINDS.index(ObjectKind(c["name"])) for c in document["categories"]}
@@ -61,7 +65,7 @@ def read_samples(folder: Path) -> tuple[Sample, ...]:
         for annotation in document["annotations"]:
             per_image[annotation["image_id"]].append(annotation)
         images = sorted(document["images"], key=lambda image: image["id"])
-        return tuple(_sample(folder, image, per_image[image["id"]], kinds) for image in images)
+        return tuple(_sample(folder, image, per_image[image["id"]], kinds, rule) for image in images)
     except OSError as error:
         raise InputError(f"There is no annotations.json in {folder}; name the folder of a rendered set.") from error
     except (KeyError, TypeError, ValueError, IndexError) as error:
@@ -70,18 +74,30 @@ def read_samples(folder: Path) -> tuple[Sample, ...]:
         ) from error
 
 
-def _sample(folder: Path, image: dict[str, Any], annotations: list[dict[str, Any]], kinds: dict[int, int]) -> Sample:
+def _sample(
+    folder: Path,
+    image: dict[str, Any],
+    annotations: list[dict[str, Any]],
+    kinds: dict[int, int],
+    rule: AskRule | None,
+) -> Sample:
     boxes = np.array([_box(a) for a in annotations], dtype=np.float64).reshape(-1, 4)
     if not np.isfinite(boxes).all():
         raise ValueError(f"picture {image['id']} has a box that is not finite")
     labels = Labels(
         boxes=boxes, kinds=np.array([kinds[a["category_id"]] for a in annotations], dtype=np.int64),
-        ignore=np.array([bool(a.get("ignore", a.get("iscrowd", 0))) for a in annotations], dtype=np.bool_),
+        ignore=np.array([_ignored(a, rule) for a in annotations], dtype=np.bool_),
     )  # fmt: skip
     return Sample(
         path=_picture(folder, str(image["file_name"])), labels=labels, season=str(image.get("season", "")),
         light=str(image.get("light", "")),
     )  # fmt: skip
+
+
+def _ignored(annotation: dict[str, Any], rule: AskRule | None) -> bool:
+    if rule is not None and rule.applies(annotation):
+        return rule.ignores(annotation)
+    return bool(annotation.get("ignore", annotation.get("iscrowd", 0)))
 
 
 def _box(annotation: dict[str, Any]) -> tuple[float, float, float, float]:

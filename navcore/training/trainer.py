@@ -1,4 +1,4 @@
-"""Training of the detector: epochs, validation, the best weights kept."""
+"""Training of a detector: epochs, validation, the best weights kept."""
 
 from __future__ import annotations
 
@@ -10,18 +10,17 @@ from typing import Any
 import numpy as np
 import torch
 from torch import Tensor
-from torch.optim.swa_utils import AveragedModel
 
 from navcore.errors import ModelError
+from navcore.training.architecture import Architecture
 from navcore.training.augment import AugmentParams, augment
 from navcore.training.budget import Budget
 from navcore.training.evaluate import Scores, evaluate
-from navcore.training.loss import LossParams, loss
-from navcore.training.model import INPUT_HEIGHT_PX, INPUT_WIDTH_PX, FootNet, FootNetParams
+from navcore.training.foot_architecture import FootArchitecture
+from navcore.training.model import INPUT_HEIGHT_PX, INPUT_WIDTH_PX
 from navcore.training.pictures import Pictures
+from navcore.training.running_mean import RunningMean
 from navcore.training.samples import Sample
-from navcore.training.targets import targets
-from navcore.training.torch_detector import TorchDetector
 
 Progress = Callable[[str], None]
 
@@ -34,19 +33,20 @@ class TrainerParams:
         epochs: passes over the training pictures.
         minutes: no longer than so; the learning rate has run its course by then. None: as long as the epochs take.
         batch: pictures per step.
-        learning_rate: the highest of the course.
-        average: decay of the running mean of the weights per step, which is what is validated and kept.
+        learning_rate: the highest of the course; None: the architecture's own.
+        average: decay of the running mean of the weights per step.
         threshold: working threshold of the validation's recall, precision and feet.
         seed: of weights, order and augmentation.
         device: "cpu", "cuda" (mixed precision), or "auto" for a GPU where there is one.
         threads: of torch and of reading pictures.
         validation_pictures: every epoch is validated on so many, evenly drawn.
+        validate_every: share of the run after which the weights are validated, at the end of an epoch.
     """
 
     epochs: int = 24
     minutes: float | None = None
     batch: int = 12
-    learning_rate: float = 4e-3
+    learning_rate: float | None = None
     weight_decay: float = 1e-3
     average: float = 0.995
     threshold: float = 0.3
@@ -54,8 +54,8 @@ class TrainerParams:
     device: str = "auto"
     threads: int = 1
     validation_pictures: int = 100
-    net: FootNetParams = FootNetParams()
-    loss: LossParams = LossParams()
+    validate_every: float = 0.0
+    architecture: Architecture = FootArchitecture()
     augment: AugmentParams = AugmentParams()
 
 
@@ -68,14 +68,15 @@ class Trainer:
         self._device = chosen_device(params.device)
         self._folder, self._validation, self._params = folder, validation, params
         self._pictures = Pictures(training, INPUT_HEIGHT_PX, INPUT_WIDTH_PX, self._device, params.threads)
-        self._net = FootNet(params.net).to(self._device, memory_format=torch.channels_last)  # type: ignore[call-overload]
-        self._mean = AveragedModel(self._net, avg_fn=running_mean(params.average), use_buffers=True)
+        self._net = params.architecture.net().to(self._device, memory_format=torch.channels_last)  # type: ignore[call-overload]
+        self._mean = RunningMean(self._net, params.average)
+        self._rate = params.learning_rate or params.architecture.learning_rate
         self._optimizer = torch.optim.AdamW(
-            self._net.parameters(), lr=params.learning_rate, weight_decay=params.weight_decay
+            self._net.parameters(), lr=self._rate, weight_decay=params.weight_decay, fused=self._device.type == "cuda"
         )
         self._steps = max(1, len(training) // params.batch)
         self._budget = Budget(steps=params.epochs * self._steps, minutes=params.minutes)
-        self._epoch, self._best = 0, -1.0
+        self._epoch, self._best, self._validated = 0, -1.0, 0.0
         folder.mkdir(parents=True, exist_ok=True)
 
     def resume(self) -> None:
@@ -83,7 +84,7 @@ class Trainer:
         try:
             state = torch.load(self._folder / "last.pt", weights_only=True, map_location=self._device)
             self._net.load_state_dict(state["net"])
-            self._mean.load_state_dict(state["mean"])
+            self._mean.resume(state["mean"], int(state["budget"]["done"]))
             self._optimizer.load_state_dict(state["optimizer"])
             self._budget.resume(**state["budget"])
             self._epoch, self._best = int(state["epoch"]), float(state["best"])
@@ -95,15 +96,22 @@ class Trainer:
         while not self._budget.spent():
             mean_loss = self._train_epoch(progress)
             self._epoch += 1
-            scores = self._validate()
-            self._keep(scores.map50)
-            progress(
-                f"epoch {self._epoch}  loss {mean_loss:.3f}  mAP50 {scores.map50:.3f}  recall "
-                f"{scores.feet.recall:.3f}  precision {scores.feet.precision:.3f}  foot "
-                f"{scores.feet.median_u_px:.2f}, {scores.feet.median_v_px:.2f} px  "
-                f"{100 * self._budget.fraction():.0f} % done"
-            )
+            told = f"epoch {self._epoch}  loss {mean_loss:.3f}"
+            if self._budget.spent() or self._budget.fraction() >= self._validated + self._params.validate_every:
+                self._validated = self._budget.fraction()
+                told += "  " + self._scored()
+            progress(f"{told}  {100 * self._budget.fraction():.0f} % done")
         return self._folder / "best.pt"
+
+    def _scored(self) -> str:
+        """Validate and keep; the scores as text."""
+        scores = self._validate()
+        self._keep(scores.map50)
+        feet = scores.feet
+        return (
+            f"mAP50 {scores.map50:.3f}  recall {feet.recall:.3f}  precision {feet.precision:.3f}  foot "
+            f"{feet.median_u_px:.2f}, {feet.median_v_px:.2f} px"
+        )
 
     def _train_epoch(self, progress: Progress) -> float:
         order = np.random.default_rng((self._params.seed, self._epoch)).permutation(len(self._pictures))
@@ -124,36 +132,36 @@ class Trainer:
         shape = self._params.augment
         image, labels = augment(*self._pictures.batch(chosen), shape, rng)
         for group in self._optimizer.param_groups:
-            group["lr"] = self._params.learning_rate * self._budget.course()
+            group["lr"] = self._rate * self._budget.course()
         with torch.autocast(self._device.type, torch.bfloat16, enabled=self._device.type == "cuda"):
-            logits, boxes = self._net(image.contiguous(memory_format=torch.channels_last))
-        wanted = targets(labels, shape.height_px, shape.width_px)
-        value = loss(logits.float(), boxes.float(), wanted, self._params.loss)
+            outputs = self._net(image.contiguous(memory_format=torch.channels_last))
+        single = tuple(output.float() for output in outputs)
+        value = self._params.architecture.loss(single, labels, shape.height_px, shape.width_px)
         self._optimizer.zero_grad(set_to_none=True)
         value.backward()  # type: ignore[no-untyped-call]
         torch.nn.utils.clip_grad_norm_(self._net.parameters(), 10.0)
         self._optimizer.step()
-        self._mean.update_parameters(self._net)
+        self._mean.follow(self._net)
         self._budget.step()
         return value.detach()
 
     def _validate(self) -> Scores:
         every = max(1, len(self._validation) // self._params.validation_pictures)
-        return evaluate(TorchDetector(self._mean.module), self._validation[::every], self._params.threshold)[0]
+        detector = self._params.architecture.detector(self._mean.net)
+        return evaluate(detector, self._validation[::every], self._params.threshold)[0]
 
     def _keep(self, map50: float) -> None:
         if map50 > self._best:
             self._best = map50
-            net = self._params.net
-            shape = {"channels": net.channels, "depths": net.depths, "head": net.head}
-            told = {"map50": map50, "epoch": self._epoch}
-            torch.save({"net": self._mean.module.state_dict(), **shape, **told}, self._folder / "best.pt")
+            told = {"architecture": self._params.architecture.told(), "map50": map50, "epoch": self._epoch}
+            torch.save({"net": self._mean.net.state_dict(), **told}, self._folder / "best.pt")
         torch.save(self._state(), self._folder / "last.pt")
 
     def _state(self) -> dict[str, Any]:
         return {
-            "net": self._net.state_dict(), "mean": self._mean.state_dict(), "optimizer": self._optimizer.state_dict(),
-            "budget": self._budget.state(), "epoch": self._epoch, "best": self._best,
+            "net": self._net.state_dict(), "mean": self._mean.net.state_dict(),
+            "optimizer": self._optimizer.state_dict(), "budget": self._budget.state(), "epoch": self._epoch,
+            "best": self._best,
         }  # fmt: skip
 
 
@@ -164,29 +172,3 @@ def chosen_device(name: str) -> torch.device:
     if name not in ("cpu", "cuda") or (name == "cuda" and not torch.cuda.is_available()):
         raise ModelError(f"There is no device {name!r} to train on here; leave --device out.")
     return torch.device(name)
-
-
-def running_mean(decay: float) -> Callable[[Tensor, Tensor, Tensor | int], Tensor]:
-    """Exponential mean of the weights that forgets the random start quickly: less decay in the first steps."""
-
-    def mean(kept: Tensor, new: Tensor, steps: Tensor | int) -> Tensor:
-        if not kept.is_floating_point():
-            return new
-        n = float(steps)
-        return kept.lerp(new, 1.0 - min(decay, (1.0 + n) / (10.0 + n)))
-
-    return mean
-
-
-def load_net(path: Path) -> FootNet:
-    """The network of a `best.pt`, ready to detect. Raises ModelError for anything else."""
-    try:
-        state = torch.load(path, weights_only=True, map_location="cpu")
-        shape = FootNetParams(
-            channels=tuple(state["channels"]), depths=tuple(state["depths"]), head=int(state["head"])
-        )
-        net = FootNet(shape)
-        net.load_state_dict(state["net"])
-    except Exception as error:  # torch raises pickle, zip and runtime errors of all kinds for a broken file
-        raise ModelError(f"{path} holds no weights of this detector.") from error
-    return net.eval()

@@ -31,14 +31,30 @@ def test_what_is_below_the_threshold_is_not_found() -> None:
 
 def test_two_feet_on_the_same_spot_are_one_object_of_the_surer_class() -> None:
     peaks, boxes = maps()
-    peaks[1, 15, 26], boxes[:, 15, 26] = 0.95, boxes[:, 15, 25]
+    peaks[1, 15, 25] = 0.95
     _, confidence, kinds = decode(peaks, boxes, 4, DecodingParams())
     assert (len(confidence), kinds) == (1, [1])
 
 
 def test_neighbours_that_do_not_overlap_both_stay() -> None:
     boxes = np.array([[10.0, 0.0, 18.0, 40.0], [30.0, 0.0, 38.0, 40.0], [10.5, 1.0, 18.5, 41.0]])
-    assert suppress(boxes, DecodingParams()) == [0, 1]
+    assert suppress(boxes, np.zeros(3, np.int64), DecodingParams()) == [0, 1]
+
+
+def test_a_vine_before_a_post_stays_and_two_posts_with_one_foot_do_not() -> None:
+    boxes = np.array([[10.0, 0.0, 18.0, 40.0], [12.0, 10.0, 17.0, 41.0]])
+    assert suppress(boxes, np.array([1, 0]), DecodingParams()) == [0, 1]
+    assert suppress(boxes, np.array([1, 1]), DecodingParams()) == [0]
+
+
+def test_finer_peaks_take_the_values_of_the_cell_around_them_and_of_their_class() -> None:
+    peaks, boxes = np.zeros((2, 48, 80), np.float32), np.zeros((8, 24, 40), np.float32)
+    peaks[1, 31, 50] = 0.9
+    boxes[:4, 15, 25] = 3.0
+    boxes[4:, 15, 25] = 0.0, -0.25, np.log(2.0), np.log(10.0)
+    found, _, kinds = decode(peaks, boxes, 2, DecodingParams())
+    np.testing.assert_allclose(found, [[98.0, 21.0, 106.0, 61.0]], atol=1e-4)
+    assert kinds == [1]
 
 
 def test_overlap_of_known_boxes() -> None:

@@ -96,7 +96,7 @@ def test_feet_in_the_picture_are_where_the_pinhole_puts_the_surveyed_posts(
     truth, camera = at(10.0, 0.3, 0.1, roll, pitch), robot_camera()
     posts = dormant.posts[:, :3] - (truth.x, truth.y, 0.0)
     expected = camera.project(posts @ rotation_from_rpy(roll, pitch, truth.yaw))
-    near = [o for o in counted(shot(dormant, truth)) if o.kind is ObjectKind.POST]
+    near = [o for o in shot(dormant, truth).objects if o.kind is ObjectKind.POST and o.range < 15.0]
     assert len(near) >= 3
     for post in near:
         assert np.nanmin(np.hypot(expected[:, 0] - post.foot_u, expected[:, 1] - post.foot_v)) < 0.1
@@ -114,9 +114,10 @@ def test_nothing_far_small_or_hidden_counts(dormant: Orchard) -> None:
     frame = shot(dormant, at(5.0))
     assert any(o.ignore for o in frame.objects)
     for o in counted(frame):
-        assert o.range <= 15.0
+        assert o.range <= 12.0
         assert o.visible >= 0.4
-        assert o.y2 - o.y1 >= 10.0
+        assert o.y2 - o.y1 >= 14.0
+        assert o.rows_nearer in (0, 1)
 
 
 def test_labels_can_be_switched_off(dormant: Orchard) -> None:

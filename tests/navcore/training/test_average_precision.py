@@ -99,3 +99,12 @@ def test_a_box_about_the_seen_part_of_a_hidden_object_is_not_asked() -> None:
     )  # fmt: skip
     assert judge(np.array([[100.0, 20.0, 110.0, 90.0]]), labels, 0, 0.5).tolist() == [UNASKED]
     assert judge(np.array([[130.0, 20.0, 140.0, 90.0]]), labels, 0, 0.5).tolist() == [FALSE]
+
+
+def test_a_thin_far_object_found_a_little_beside_itself_is_not_asked_unless_a_counted_one_is_nearer() -> None:
+    ignored, counted = [100.0, 50.0, 103.0, 90.0], [120.0, 50.0, 123.0, 90.0]
+    labels = Labels(
+        boxes=np.array([ignored, counted]), kinds=np.array([0, 0]), ignore=np.array([True, False])
+    )  # fmt: skip
+    beside = np.array([[104.0, 50.0, 107.0, 90.0], [115.0, 50.0, 118.0, 90.0]])
+    assert judge(beside, labels, 0, 0.5).tolist() == [UNASKED, FALSE]

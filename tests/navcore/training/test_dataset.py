@@ -39,7 +39,7 @@ def test_annotations_carry_the_fields_of_coco_and_ours(folder: Path) -> None:
     document = json.loads((folder / "annotations.json").read_text(encoding="utf-8"))
     assert {c["name"] for c in document["categories"]} == {"trunk", "post"}
     assert len({a["id"] for a in document["annotations"]}) == len(document["annotations"])
-    assert {"bbox", "area", "iscrowd", "ignore", "visible", "range", "foot_visible"} <= set(
+    assert {"bbox", "area", "iscrowd", "ignore", "visible", "range", "rows_nearer", "foot_visible"} <= set(
         document["annotations"][0]
     )
 

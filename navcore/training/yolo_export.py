@@ -1,0 +1,95 @@
+"""From the published detector's torch weights to an ONNX file in the layout of YOLOv8's own export."""
+
+from __future__ import annotations
+
+import copy
+import warnings
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import onnxruntime as ort
+import torch
+from numpy.typing import NDArray
+from torch import Tensor, nn
+
+from navcore.errors import ModelError
+from navcore.training.model import INPUT_HEIGHT_PX, INPUT_WIDTH_PX
+from navcore.training.yolo_net import cell_centres, corners, flattened
+
+Singles = NDArray[np.float32]
+
+
+class DeployedYolo(nn.Module):
+    """(1, 3, H, W) RGB, 0 to 1 -> (1, 4 + 2, N): middle, width and height in pixels, then a score per class."""
+
+    def __init__(self, net: nn.Module) -> None:
+        super().__init__()
+        self.net = copy.deepcopy(net)
+        first = next(p for p in self.net.parameters() if p.dim() == 4)
+        first.data = first.data.flip(1)
+
+    def forward(self, image: Tensor) -> Tensor:
+        maps = self.net(image)
+        sides, classes = flattened(maps)
+        boxes = corners(sides, *cell_centres(maps))
+        low, high = boxes[..., :2], boxes[..., 2:]
+        return torch.cat(((low + high) / 2, high - low, classes.sigmoid()), dim=2).transpose(1, 2)
+
+
+def export_yolo(net: nn.Module, path: Path, *, max_difference: float = 1e-2) -> float:
+    """Write the network to `path`; the largest difference of its outputs from torch's on random pictures, of px and
+    scores.
+
+    Raises ModelError, and leaves no file, if that is more than `max_difference`.
+    """
+    deployed = DeployedYolo(net).eval()
+    blob = torch.zeros(1, 3, INPUT_HEIGHT_PX, INPUT_WIDTH_PX)
+    with warnings.catch_warnings():
+        # The exporter that needs no further package tells at length that there is a newer one.
+        warnings.simplefilter("ignore")
+        torch.onnx.export(
+            deployed, (blob,), str(path), dynamo=False, opset_version=17, input_names=["images"],
+            output_names=["output0"],
+        )  # fmt: skip
+    difference = _largest_difference(deployed, path)
+    if difference > max_difference:
+        path.unlink()
+        raise ModelError(f"The exported detector differs from torch by {difference:.2g}; do not use it.")
+    return difference
+
+
+def _largest_difference(deployed: nn.Module, path: Path, *, pictures: int = 2, seed: int = 1) -> float:
+    session = ort.InferenceSession(str(path), providers=["CPUExecutionProvider"])
+    rng, worst = np.random.default_rng(seed), 0.0
+    for _ in range(pictures):
+        blob = rng.random((1, 3, INPUT_HEIGHT_PX, INPUT_WIDTH_PX), dtype=np.float32)
+        with torch.no_grad():
+            wanted = deployed(torch.from_numpy(blob)).numpy()
+        worst = max(worst, float(np.abs(session.run(None, {"images": blob})[0] - wanted).max()))
+    return worst
+
+
+@dataclass(frozen=True, slots=True)
+class _Input:
+    name: str
+    shape: tuple[int, int, int, int]
+
+
+class TorchSession:
+    """Weights in torch, asked as ONNX Runtime's session is, for validation during training."""
+
+    def __init__(self, net: nn.Module) -> None:
+        self._net = DeployedYolo(net).eval()
+        self._device = next(net.parameters()).device
+
+    def get_inputs(self) -> list[_Input]:
+        """The only input."""
+        return [_Input("images", (1, 3, INPUT_HEIGHT_PX, INPUT_WIDTH_PX))]
+
+    @torch.no_grad()
+    def run(self, _: None, inputs: Mapping[str, Singles]) -> list[Singles]:
+        """The only output."""
+        output: Tensor = self._net(torch.from_numpy(inputs["images"]).to(self._device))
+        return [output.cpu().numpy()]
