@@ -8,10 +8,12 @@ change of source never makes the robot jump: the tie that is followed slides to 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from navcore.geometry.angles import wrap
 from navcore.geometry.se2 import SE2
+from navcore.localization.row_line import RowLine
+from navcore.localization.wheel_slip import WheelSlip, WheelSlipParams
 
 HALF_TURN = SE2(0.0, 0.0, math.pi)
 
@@ -36,7 +38,7 @@ class PathAnchorParams:
         gate: a row end that lies further off than so many 1-sigma is not believed.
         insist: unless it is seen so many times in a row: then an earlier end was a gap in the row, and the place
             along it is as unsure as the map and the wheels leave it.
-        most_slip: largest share of the metres told by the wheels that were not driven.
+        slip: of the wheels.
         growth_along: 1-sigma of the drift along the path, m per square root of m driven (wheel slip).
     """
 
@@ -53,32 +55,10 @@ class PathAnchorParams:
     next_lateral: float = 0.2
     map_heading: float = 0.03
     map_along: float = 0.8
-    most_slip: float = 0.12
+    slip: WheelSlipParams = field(default_factory=WheelSlipParams)
     growth_along: float = 0.15
     gate: float = 3.0
     insist: int = 5
-
-
-@dataclass(frozen=True, slots=True)
-class RowLine:
-    """A drawn row's centre line in `map`: a point on it and the direction in which it is driven, rad."""
-
-    x: float
-    y: float
-    heading: float
-
-    @staticmethod
-    def between(start: tuple[float, float], end: tuple[float, float]) -> RowLine:
-        """From the end at which the row is entered to the other one."""
-        return RowLine(*start, math.atan2(end[1] - start[1], end[0] - start[0]))
-
-    def coordinates(self, pose: SE2) -> SE2:
-        """Pose in the row's own frame: x along, y to the left of the line, yaw from its direction."""
-        return SE2(self.x, self.y, self.heading).inverse() @ pose
-
-    def pose(self, coordinates: SE2) -> SE2:
-        """Pose in `map` of row coordinates."""
-        return SE2(self.x, self.y, self.heading) @ coordinates
 
 
 class PathAnchor:
@@ -95,6 +75,7 @@ class PathAnchor:
         self.followed = self.left = T_map_odom
         self.var_lateral = self.var_heading = self.var_along = 0.0
         self.put_back = self.row_heading = 0.0
+        self.slip = WheelSlip(params.slip)
         self.unsure()
 
     def unsure(self) -> None:
@@ -103,6 +84,7 @@ class PathAnchor:
         self.var_lateral, self.var_heading, self.var_along = p.map_lateral**2, p.map_heading**2, p.map_along**2
         self._driven = self._held_back = 0.0
         self._contradictions = 0
+        self.slip.begin()
 
     def next_row(self) -> None:
         """Another row, reached from the last one: the map knows their distance better than their place."""
@@ -111,6 +93,7 @@ class PathAnchor:
         self.var_heading, self.var_along = p.map_heading**2, p.map_along**2
         self._driven = self._held_back = 0.0
         self.left = self.T_map_odom
+        self.slip.begin()
 
     @property
     def left_stds(self) -> tuple[float, float]:
@@ -123,6 +106,7 @@ class PathAnchor:
         """Let the uncertainty grow over a driven distance, m."""
         p, d = self.params, abs(distance)
         self._driven += d
+        self.slip.drive(d)
         self.var_lateral += p.growth_lateral**2 * d
         self.var_heading += p.growth_heading**2 * d
         self.var_along += p.growth_along**2 * d
@@ -136,6 +120,16 @@ class PathAnchor:
         before, now = self.T_map_odom @ T_odom_before, self.T_map_odom @ T_odom_now
         slip = SE2(before.x + moved[0] - now.x, before.y + moved[1] - now.y, 0.0)
         self.T_map_odom, self.left = slip @ self.T_map_odom, slip @ self.left
+
+    def slip_back(self, T_odom_before: SE2, T_odom_now: SE2) -> None:
+        """Where nothing else says how far the robot has moved: as far as the wheels tell, less their usual slip."""
+        before, now, share = self.T_map_odom @ T_odom_before, self.T_map_odom @ T_odom_now, self.slip.share
+        lost = share * math.hypot(now.x - before.x, now.y - before.y)
+        self.slip.lose(lost)
+        self._held_back += lost
+        self.drift(
+            T_odom_before, T_odom_now, ((1.0 - share) * (now.x - before.x), (1.0 - share) * (now.y - before.y))
+        )
 
     def see_row(
         self, row: RowLine, T_odom_drive: SE2, offset: float, heading: float, offset_std: float, heading_std: float
@@ -161,6 +155,7 @@ class PathAnchor:
         gain = self.var_along / (self.var_along + std**2)
         self.var_along *= 1.0 - gain
         self._shift(row, T_odom_drive, gain * (along - at.x))
+        self.slip.see_end()
 
     def _doubt_along(self, off: float, std: float) -> None:
         """Count the ends in a row that lie too far off; when they insist, be as unsure as before the first."""
@@ -180,7 +175,7 @@ class PathAnchor:
         not believed, or something that stands beyond the row could hold the robot for ever.
         """
         at = row.coordinates(self.T_map_odom @ T_odom_drive)
-        back = min(at.x - at_most, self.params.most_slip * self._driven - self._held_back)
+        back = min(at.x - at_most, self.params.slip.most * self._driven - self._held_back)
         if back > 0.0:
             self._held_back += back
             self._shift(row, T_odom_drive, -back)
@@ -188,6 +183,7 @@ class PathAnchor:
     def _shift(self, row: RowLine, T_odom_drive: SE2, ahead: float) -> None:
         """Move the place along the row."""
         self.put_back -= ahead
+        self.slip.lose(-ahead)
         at = row.coordinates(self.T_map_odom @ T_odom_drive)
         self._set(row.pose(SE2(at.x + ahead, at.y, at.yaw)), T_odom_drive)
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from navcore.geometry.angles import wrap
 from navcore.geometry.se2 import SE2
-from navcore.localization.path_anchor import RowLine
+from navcore.localization.row_line import RowLine
 from navcore.messages import FixQuality, GnssFix, RowObservation
 
 NS = 1e-9

@@ -6,7 +6,8 @@ import math
 
 from navcore.geometry.polyline import Projection
 from navcore.geometry.se2 import SE2
-from navcore.localization.path_anchor import HALF_TURN, PathAnchor, RowLine
+from navcore.localization.path_anchor import HALF_TURN, PathAnchor
+from navcore.localization.row_line import RowLine
 from navcore.messages import CameraName, MissionPlan, ModeSwitch, NavMode, PathSegment, RowObservation, SegmentKind
 from navcore.mission.evidence import NO_IDEA, Doubt, RowEvidence
 from navcore.mission.mode_selector import ModeFacts, select_mode, start_reason
@@ -108,7 +109,7 @@ class Pilot:
         distance = math.hypot(moved.x, moved.y)
         self.anchor.drive(distance)
         self.carried = self.carried + distance if self.mode in CARRIED else 0.0
-        if self.mode in CARRIED:
+        if self.mode is not NavMode.GNSS_PATH:
             self._take_drift(self._at, at)
         self._at = at
         return distance
@@ -116,7 +117,8 @@ class Pilot:
     def _take_drift(self, before: Position, now: Position) -> None:
         """Away from plants GNSS says by how much the wheels slip, though not where the row lies on the map."""
         ends = before.surely_at(self.params.drift_std), now.surely_at(self.params.drift_std)
-        if ends[0] is None or ends[1] is None:
+        if ends[0] is None or ends[1] is None or self.mode not in CARRIED:
+            self.anchor.slip_back(before.T_odom_base, now.T_odom_base)
             return
         moved = ends[1].x - ends[0].x, ends[1].y - ends[0].y
         self.anchor.drift(before.T_odom_base, now.T_odom_base, moved)

@@ -7,7 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from navcore.geometry.se2 import SE2
-from navcore.localization.path_anchor import PathAnchor, PathAnchorParams, RowLine
+from navcore.localization.path_anchor import PathAnchor, PathAnchorParams
+from navcore.localization.row_line import RowLine
 
 ROW = RowLine(10.0, 5.0, 0.3)
 

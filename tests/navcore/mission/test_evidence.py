@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from navcore.geometry.se2 import SE2
-from navcore.localization.path_anchor import RowLine
+from navcore.localization.row_line import RowLine
 from navcore.messages import CameraName, RowObservation
 from navcore.mission.evidence import Doubt, RowEvidence, RowEvidenceParams
 
