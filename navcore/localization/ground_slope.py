@@ -27,9 +27,9 @@ class GroundSlopeParams:
         gate: a reading of the camera further off than so many 1-sigma is not believed.
     """
 
-    land_deg: float = 2.0
+    land_deg: float = 1.5
     land_length: float = 300.0
-    mount_deg: float = 0.6
+    mount_deg: float = 0.7
     bump_deg: float = 1.2
     bump_length: float = 10.0
     gate: float = 3.5
