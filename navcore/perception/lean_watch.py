@@ -16,10 +16,11 @@ class LeanWatchParams:
     """Parameters of `LeanWatch`.
 
     Attributes:
-        span: a reading is made of the pictures of so many metres.
+        span: a reading is made of the pictures of so many metres; first_span: the first one, before the entrance.
     """
 
     span: float = 4.0
+    first_span: float = 2.5
     sightings: PlantSightingsParams = PlantSightingsParams()
     fit: LeanFitParams = LeanFitParams()
 
@@ -32,10 +33,12 @@ class LeanWatch:
         self._height, self._focal_px = camera.z, camera.fx * 640 / camera.width_px
         self._params = params
         self._seen = PlantSightings(camera.x, params.sightings)
+        self._first = True
 
     def forget(self) -> None:
         """The next picture does not follow the last one."""
         self._seen.forget()
+        self._first = True
 
     def see(self, row: GroundRow | None, motion: SE2 | None, told_roll: float) -> Lean | None:
         """How much more than `told_roll` the camera leans, rad; None until enough was driven.
@@ -43,11 +46,12 @@ class LeanWatch:
         `motion` as in `RowCue`.
         """
         if row is None or motion is None:
-            self._seen.forget()
+            self.forget()
             return None
         self._seen.add(row, motion, told_roll / self._height)
-        if self._seen.driven < self._params.span:
+        if self._seen.driven < (self._params.first_span if self._first else self._params.span):
             return None
+        self._first = False
         lean = fit_lean(self._seen.all(), self._height, self._focal_px, self._params.fit)
         self._seen.forget()
         return lean

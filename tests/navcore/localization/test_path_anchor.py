@@ -58,6 +58,18 @@ def test_a_row_that_goes_on_holds_the_robot_back_and_never_pushes_it() -> None:
     assert ROW.coordinates(anchor.T_map_odom @ odom).x == pytest.approx(x - 4.0)
 
 
+def test_after_a_row_that_was_shorter_than_told_less_is_taken_for_driven() -> None:
+    anchor, odom = anchored(), SE2(8.0, 3.0, 0.25)
+    anchor.drive(60.0)
+    x = ROW.coordinates(anchor.T_map_odom @ odom).x
+    for _ in range(30):
+        anchor.see_along(ROW, odom, along=x - 2.4, std=0.4)
+    before, further = anchor.T_map_odom @ odom, odom @ SE2(5.0, 0.0, 0.0)
+    anchor.slip_back(odom, further)
+    moved = before.inverse() @ anchor.T_map_odom @ further
+    assert (moved.x, moved.y) == pytest.approx((5.0 * 0.96, 0.0), abs=0.05)  # m
+
+
 def test_ends_seen_now_nearer_now_further_add_up_to_no_way_driven() -> None:
     """A robot that does not get on must not seem to, by the noise of what it sees."""
     anchor, odom = anchored(), SE2(8.0, 3.0, 0.25)
