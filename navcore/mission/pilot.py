@@ -190,18 +190,10 @@ class Pilot:
         self._on_switch(before)
         seen = self.row.agreeing
         return ModeSwitch(
-            stamp_ns=at.now_ns,
-            before=before,
-            after=self.mode,
-            reason=reason,
-            x=self.pose.x,
-            y=self.pose.y,
-            along_segment=self.place.s,
-            gnss_std=at.gnss_std,
-            row_quality=seen.quality if seen else None,
-            row_offset=seen.offset if seen else None,
-            end_distance=facts.to_end,
-        )
+            stamp_ns=at.now_ns, before=before, after=self.mode, reason=reason, x=self.pose.x, y=self.pose.y,
+            along_segment=self.place.s, gnss_std=at.gnss_std, row_quality=seen.quality if seen else None,
+            row_offset=seen.offset if seen else None, end_distance=facts.to_end,
+        )  # fmt: skip
 
     def _on_switch(self, before: NavMode) -> None:
         if self.mode is NavMode.GNSS_PATH:
