@@ -86,6 +86,11 @@ class Attitude:
         """A camera leans by `more` to the side (roll of `base_link`, rad) than `against_ground` told."""
         self._slope.see_lean(yaw, more, std)
 
+    @property
+    def mount_roll(self) -> tuple[float, float]:
+        """See `GroundSlope.mount_roll`."""
+        return self._slope.mount_roll
+
     def against_ground(self, yaw: float) -> tuple[float, float]:
         """(roll, pitch) of the body against the ground at a yaw in `odom`, rad."""
         forward, left = self._slope.tilt(yaw)

@@ -24,7 +24,9 @@ class GroundSlopeParams:
         land_deg, land_length: 1-sigma of the land's slope, and the way over which it becomes another, m.
         mount_deg: 1-sigma of how the IMU's axes and zeros are off.
         bump_deg, bump_length: 1-sigma of the lean in ruts and bumps, and the way over which it lasts, m.
-        gate: a reading of the camera further off than so many 1-sigma is not believed.
+        gate: a reading of the camera further off than so many 1-sigma is not believed,
+        insist: unless so many in a row say the same: then the mount has moved.
+        moved_deg: 1-sigma of how far a mount that has moved is off.
     """
 
     land_deg: float = 1.5
@@ -33,6 +35,8 @@ class GroundSlopeParams:
     bump_deg: float = 1.2
     bump_length: float = 10.0
     gate: float = 3.5
+    insist: int = 3
+    moved_deg: float = 6.0
 
 
 class GroundSlope:
@@ -46,6 +50,7 @@ class GroundSlope:
         self._land_var, mount_var = math.radians(params.land_deg) ** 2, math.radians(params.mount_deg) ** 2
         self._state: Floats = np.zeros(4)
         self._covariance: Floats = np.diag((self._land_var, self._land_var, mount_var, mount_var))
+        self._refused: list[float] = []
 
     def tilt(self, yaw: float) -> tuple[float, float]:
         """(forward, left) of an upright robot's IMU at a yaw in `odom`."""
@@ -66,9 +71,26 @@ class GroundSlope:
     def see_lean(self, yaw: float, more: float, std: float) -> None:
         """The camera leans by `more` to the side (roll, rad) than the IMU and this slope told, 1-sigma `std`."""
         H = _turned_to_body(yaw)[1:]
-        innovation_std = math.sqrt(float((H @ self._covariance @ H.T)[0, 0]) + std**2)
-        if abs(more) <= self.params.gate * innovation_std:
+        if self._believable(more, math.sqrt(float((H @ self._covariance @ H.T)[0, 0]) + std**2)):
             self._update(H, H @ self._state - more, np.array([[std**2]]))
+
+    def _believable(self, more: float, innovation_std: float) -> bool:
+        """Not too far off, or insisted on: then nobody knows the mount any more."""
+        if abs(more) <= self.params.gate * innovation_std:
+            self._refused.clear()
+            return True
+        same = [reading for reading in self._refused if reading * more > 0.0]
+        self._refused = [*same, more]
+        if len(self._refused) < self.params.insist:
+            return False
+        self._covariance[[2, 3], [2, 3]] += math.radians(self.params.moved_deg) ** 2
+        self._refused.clear()
+        return True
+
+    @property
+    def mount_roll(self) -> tuple[float, float]:
+        """By how much the camera leans to the right against the IMU, rad, and its 1-sigma."""
+        return -float(self._state[3]), math.sqrt(float(self._covariance[3, 3]))
 
     def _update(self, H: Floats, measured: Floats, noise: Floats) -> None:
         gain = self._covariance @ H.T @ np.linalg.inv(H @ self._covariance @ H.T + noise)

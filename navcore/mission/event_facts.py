@@ -25,6 +25,7 @@ class EventParams:
         link_s: time without an operator's page (hazard 20).
         arming_s: longest time for the chassis to obey.
         start_distance: from the robot to the mission's start, and from the path before it was first reached.
+        askew_deg: a camera that leans further against the IMU, and by twice what is doubtful, has been moved.
         battery_low_v: warn and slow (hazard 52). battery_stop_v: stop.
     """
 
@@ -46,6 +47,7 @@ class EventParams:
     link_s: float = 5.0
     arming_s: float = 5.0
     start_distance: float = 3.0
+    askew_deg: float = 3.0
     battery_low_v: float = 23.5
     battery_stop_v: float = 22.0
 
@@ -56,7 +58,8 @@ class EventFacts:
 
     Ages are None where nothing came; `captured`: the path was reached;
     `entrance`: metres to that of a row which is driven at without being seen; `room`: metres between body and plants
-    on the narrower side of a seen one that is near.
+    on the narrower side of a seen one that is near; `askew`: how far the camera leans to the right against the IMU,
+    and its 1-sigma, rad.
     """
 
     state: RunState
@@ -84,3 +87,4 @@ class EventFacts:
     zone: str
     start_distance: float | None
     waiting_for_gnss: bool
+    askew: tuple[float, float]

@@ -5,6 +5,7 @@ The state machine sees effects only. To add a fault, add a line.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -175,6 +176,12 @@ EVENTS: tuple[Event, ...] = (
         "row_unseen", "HOLD",
         lambda f, p: _moving(f) and f.mode in (NavMode.ROW_ENTRY, NavMode.ROW) and _old(f.row_age_s, p.row_hold_s),
         lambda f: f"The camera sees no row: {f.row_reason or 'no picture'}. The robot waits and goes on by itself.",
+    ),
+    _event(
+        "camera_askew", "WARN",
+        lambda f, p: f.state in UNDER_WAY and abs(f.askew[0]) > max(math.radians(p.askew_deg), 2.0 * f.askew[1]),
+        lambda f: f"The camera leans {abs(math.degrees(f.askew[0])):.0f} degrees to the "
+        f"{'right' if f.askew[0] > 0.0 else 'left'}: its mount has moved. The robot allows for it; straighten it.",
     ),
     _event(
         "carried_too_far", "HOLD",

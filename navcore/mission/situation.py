@@ -78,6 +78,7 @@ def event_facts(
         zone=now.driving.zone,
         start_distance=start_distance,
         waiting_for_gnss=_waits_for_gnss(now),
+        askew=s.attitude.mount_roll,
     )
 
 

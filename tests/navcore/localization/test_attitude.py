@@ -97,6 +97,18 @@ def test_a_rut_along_the_whole_row_is_seen_by_the_camera() -> None:
     assert attitude.against_ground(0.5)[0] == pytest.approx(rut, abs=0.005)  # rad
 
 
+def test_a_camera_whose_mount_has_moved_is_reckoned_with_and_told() -> None:
+    attitude, moved = Attitude(AttitudeParams()), math.radians(9.0)
+    k = drive(attitude, 1, 20.0, roll=0.0, yaw=0.0)
+    for _ in range(6):
+        k = drive(attitude, k, 4.0, roll=0.0, yaw=0.0)
+        attitude.see_lean(0.0, moved - attitude.against_ground(0.0)[0], 0.013)
+    assert attitude.against_ground(0.0)[0] == pytest.approx(moved, abs=math.radians(0.7))
+    roll, std = attitude.mount_roll
+    assert roll == pytest.approx(moved, abs=math.radians(2.0))
+    assert abs(roll) > 2.0 * std
+
+
 def test_a_wild_reading_of_the_lean_is_not_believed() -> None:
     attitude = Attitude(AttitudeParams())
     attitude.see_lean(0.0, 0.3, 0.01)

@@ -25,7 +25,7 @@ WELL = EventFacts(
     system_age_s=0.05, pose_std=0.02, carried=0.0, gnss_age_s=0.2, pose_cap=None, pose_cap_reason="",
     row_age_s=None, row_reason="", entrance=None, room=None, lateral_error=0.02, captured=True, stuck=False,
     held_s=0.0, arming_s=0.0, link_age_s=0.5, link_loss=LinkLossPolicy.STOP, zone="", start_distance=0.1,
-    waiting_for_gnss=False,
+    waiting_for_gnss=False, askew=(0.01, 0.01),
 )  # fmt: skip
 FAULTS: dict[str, dict[str, Any]] = {
     "chassis_silent": {"chassis_age_s": 0.25},
@@ -38,6 +38,7 @@ FAULTS: dict[str, dict[str, Any]] = {
     "battery_empty": {"chassis": replace(CHASSIS, voltage_v=21.5)},
     "battery_low": {"chassis": replace(CHASSIS, voltage_v=23.0)},
     "tick_late": {"tick_s": 0.25},
+    "camera_askew": {"askew": (0.1, 0.02)},
     "tick_slow": {"tick_s": 0.12},
     "no_position": {"pose_std": None},
     "position_unsure": {"pose_std": 1.0},
