@@ -39,7 +39,7 @@ class YoloParams:
 PUBLISHED = YoloParams(
     classes={ObjectKind.TRUNK: (0,), ObjectKind.POST: (1,)},
     decoding=DecodingParams(
-        max_objects=300, max_overlap=0.7, max_overlap_of_kinds=1.0, foot_distance_px=0.0, foot_distance_widths=0.0
+        max_objects=300, max_overlap=0.7, foot_distance_px=0.0, foot_distance_widths=0.0, across_kinds=False
     ),
 )
 
