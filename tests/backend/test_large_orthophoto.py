@@ -65,7 +65,8 @@ def test_a_picture_larger_than_the_memory_bound_is_imported_and_shown(client: Te
 
 def import_processes() -> list[int]:
     """Children of this process that import a picture."""
-    children = [child for t in Path("/proc/self/task").iterdir() for child in (t / "children").read_text().split()]
+    threads = [thread.name for thread in Path("/proc/self/task").iterdir()]
+    children = [child.decode() for thread in threads for child in _file(f"self/task/{thread}", "children").split()]
     return [int(child) for child in children if b"orthophoto_import" in _file(child, "cmdline")]
 
 
@@ -78,5 +79,5 @@ def peak_bytes(process: int) -> int:
 def _file(process: str, name: str) -> bytes:
     try:
         return (Path("/proc") / process / name).read_bytes()
-    except OSError:  # it has ended
+    except OSError:  # it, or the thread, has ended
         return b""
