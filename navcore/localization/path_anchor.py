@@ -65,14 +65,14 @@ class PathAnchor:
     """Ties `map` to `odom` by whichever source the robot drives on. Poses are of the driving frame.
 
     `put_back` are the metres by which rows have put the robot back, less those ahead: what the wheels told too many.
-    `left` is the tie by which the last row was left, carried on by odometry alone.
+    `departed` is the tie by which the last row was left, carried on by odometry alone.
     `row_heading` is the direction in `map` of the row seen last, rad: along and across it the variances are meant.
     """
 
     def __init__(self, T_map_odom: SE2, params: PathAnchorParams) -> None:
         self.params = params
         self.T_map_odom = T_map_odom
-        self.followed = self.left = T_map_odom
+        self.followed = self.departed = T_map_odom
         self.var_lateral = self.var_heading = self.var_along = 0.0
         self.put_back = self.row_heading = 0.0
         self.slip = WheelSlip(params.slip)
@@ -92,12 +92,12 @@ class PathAnchor:
         self.var_lateral = max(self.var_lateral, p.next_lateral**2)
         self.var_heading, self.var_along = p.map_heading**2, p.map_along**2
         self._driven = self._held_back = 0.0
-        self.left = self.T_map_odom
+        self.departed = self.T_map_odom
         self.slip.begin()
 
     @property
-    def left_stds(self) -> tuple[float, float]:
-        """1-sigma of where the next row lies by `left`: across it, m, and its direction, rad."""
+    def departed_stds(self) -> tuple[float, float]:
+        """1-sigma of where the next row lies by `departed`: across it, m, and its direction, rad."""
         p = self.params
         across = math.sqrt(p.next_lateral**2 + p.growth_lateral**2 * self._driven)
         return across, math.sqrt(p.map_heading**2 + p.growth_heading**2 * self._driven)
@@ -106,7 +106,6 @@ class PathAnchor:
         """Let the uncertainty grow over a driven distance, m."""
         p, d = self.params, abs(distance)
         self._driven += d
-        self.slip.drive(d)
         self.var_lateral += p.growth_lateral**2 * d
         self.var_heading += p.growth_heading**2 * d
         self.var_along += p.growth_along**2 * d
@@ -119,13 +118,14 @@ class PathAnchor:
         """The robot has moved by `moved` m in `map`, whatever the wheels say; its turn is the gyro's."""
         before, now = self.T_map_odom @ T_odom_before, self.T_map_odom @ T_odom_now
         slip = SE2(before.x + moved[0] - now.x, before.y + moved[1] - now.y, 0.0)
-        self.T_map_odom, self.left = slip @ self.T_map_odom, slip @ self.left
+        self.T_map_odom, self.departed = slip @ self.T_map_odom, slip @ self.departed
 
     def slip_back(self, T_odom_before: SE2, T_odom_now: SE2) -> None:
         """Where nothing else says how far the robot has moved: as far as the wheels tell, less their usual slip."""
         before, now, share = self.T_map_odom @ T_odom_before, self.T_map_odom @ T_odom_now, self.slip.share
-        lost = share * math.hypot(now.x - before.x, now.y - before.y)
-        self.slip.lose(lost)
+        told = math.hypot(now.x - before.x, now.y - before.y)
+        lost = share * told
+        self.slip.drive(told, lost)
         self._held_back += lost
         self.drift(
             T_odom_before, T_odom_now, ((1.0 - share) * (now.x - before.x), (1.0 - share) * (now.y - before.y))

@@ -41,12 +41,13 @@ class WheelSlip:
         self._before, self._var_before = self.share, self._var + self.params.change_std**2
         self._told = self._lost = 0.0
 
-    def drive(self, told: float) -> None:
-        """The wheels tell so many metres along the row."""
+    def drive(self, told: float, lost: float) -> None:
+        """The wheels tell so many metres along the row, of which so many are taken for lost."""
         self._told += told
+        self._lost += lost
 
     def lose(self, metres: float) -> None:
-        """So many of them were not driven; negative: more were."""
+        """So many more of them were not driven; negative: fewer."""
         self._lost += metres
 
     def see_end(self) -> None:

@@ -129,7 +129,7 @@ class Pilot:
         if row is None or segment is None or seen.camera is not self.camera():
             return
         expected = self._expected(T_odom_drive)
-        doubt = Doubt(*self.anchor.left_stds) if self.mode is NavMode.HEADLAND else NO_IDEA
+        doubt = Doubt(*self.anchor.departed_stds) if self.mode is NavMode.HEADLAND else NO_IDEA
         if not self.row.judge(seen, row, expected, segment.corridor_width or 3.0, doubt):
             return
         turned_to = self.mode is NavMode.HEADLAND and self._turned_to_row(row, T_odom_drive)
@@ -160,7 +160,7 @@ class Pilot:
         """
         at, by_anchor = self._at, self.anchor.T_map_odom @ T_odom_drive
         if self.mode is NavMode.HEADLAND:
-            return by_anchor, self.anchor.left @ T_odom_drive
+            return by_anchor, self.anchor.departed @ T_odom_drive
         on_the_way_in = self.mode in (NavMode.GNSS_PATH, NavMode.ROW_ENTRY) and self._comes_from_gnss
         if at.T_map_base is None or not on_the_way_in or not at.gnss_good(self.params.mode):
             return (by_anchor,)
@@ -220,17 +220,12 @@ class Pilot:
         row = self.row_line()
         return -row.coordinates(self.pose).x if row else None
 
-    def to_end(self) -> float | None:
-        """Metres ahead at which that row ends, negative behind it."""
-        segment, to_start = self.row_segment(), self.to_start()
-        return row_length(segment) + to_start if segment is not None and to_start is not None else None
-
     def _facts(self, at: Position) -> ModeFacts:
-        seen = self.row.agreeing
+        to_start, segment, seen = self.to_start(), self.row_segment(), self.row.agreeing
         return ModeFacts(
             segment=self.segment.kind,
-            to_start=self.to_start(),
-            to_end=self.to_end(),
+            to_start=to_start,
+            to_end=row_length(segment) + to_start if segment is not None and to_start is not None else None,
             row_follows=self.leg.row_follows(self.place.s),
             turn_follows=self.leg.turn_follows(self.place.s),
             row_streak=self.row.streak,

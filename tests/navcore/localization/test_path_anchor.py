@@ -59,8 +59,11 @@ def test_a_row_that_goes_on_holds_the_robot_back_and_never_pushes_it() -> None:
 
 
 def test_after_a_row_that_was_shorter_than_told_less_is_taken_for_driven() -> None:
-    anchor, odom = anchored(), SE2(8.0, 3.0, 0.25)
+    """However long the road was that led there on GNSS."""
+    anchor, start, odom = anchored(), SE2(8.0, 3.0, 0.25), SE2(8.0, 3.0, 0.25) @ SE2(60.0, 0.0, 0.0)
+    anchor.drive(100.0)
     anchor.drive(60.0)
+    anchor.slip_back(start, odom)
     x = ROW.coordinates(anchor.T_map_odom @ odom).x
     for _ in range(30):
         anchor.see_along(ROW, odom, along=x - 2.4, std=0.4)

@@ -12,7 +12,7 @@ from navcore.localization.wheel_slip import WheelSlip, WheelSlipParams
 def driven(slip: WheelSlip, told: float, lost: float) -> float:
     """The share after a row whose end showed so much lost, m."""
     slip.begin()
-    slip.drive(told)
+    slip.drive(told, 0.0)
     slip.lose(lost)
     slip.see_end()
     return slip.share
@@ -20,7 +20,7 @@ def driven(slip: WheelSlip, told: float, lost: float) -> float:
 
 def test_nothing_is_taken_off_before_a_row_has_told() -> None:
     slip = WheelSlip(WheelSlipParams())
-    slip.drive(50.0)
+    slip.drive(50.0, 0.0)
     slip.lose(3.0)
     assert slip.share == 0.0
 
