@@ -15,7 +15,7 @@ def complete_iou(boxes: Tensor, others: Tensor) -> Tensor:
     """
     x1, y1, x2, y2 = boxes.unbind(dim=-1)
     u1, v1, u2, v2 = others.unbind(dim=-1)
-    iou = _intersection_over_union(boxes, others)
+    iou = intersection_over_union(boxes, others)
     wide, high = torch.maximum(x2, u2) - torch.minimum(x1, u1), torch.maximum(y2, v2) - torch.minimum(y1, v1)
     apart = ((x1 + x2 - u1 - u2) ** 2 + (y1 + y2 - v1 - v2) ** 2) / 4
     shape = 4 / math.pi**2 * (_slant(others) - _slant(boxes)) ** 2
@@ -24,7 +24,8 @@ def complete_iou(boxes: Tensor, others: Tensor) -> Tensor:
     return iou - apart / (wide**2 + high**2).clamp(min=1e-6) - weight * shape
 
 
-def _intersection_over_union(boxes: Tensor, others: Tensor) -> Tensor:
+def intersection_over_union(boxes: Tensor, others: Tensor) -> Tensor:
+    """Of boxes given by corners (..., 4), with those in the same place."""
     x1, y1, x2, y2 = boxes.unbind(dim=-1)
     u1, v1, u2, v2 = others.unbind(dim=-1)
     width = (torch.minimum(x2, u2) - torch.maximum(x1, u1)).clamp(min=0)

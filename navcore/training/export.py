@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from pathlib import Path
 
 import numpy as np
@@ -10,8 +9,8 @@ import onnxruntime as ort
 import torch
 from torch import Tensor, nn
 
-from navcore.errors import ModelError
 from navcore.training.model import INPUT_HEIGHT_PX, INPUT_WIDTH_PX, peaks
+from navcore.training.onnx_file import write_onnx
 
 
 class Deployed(nn.Module):
@@ -31,20 +30,10 @@ def export_onnx(net: nn.Module, path: Path, *, max_difference: float = 1e-3) -> 
 
     Raises ModelError, and leaves no file, if that is more than `max_difference`.
     """
-    deployed = Deployed(net).eval()
-    blob = torch.zeros(1, 3, INPUT_HEIGHT_PX, INPUT_WIDTH_PX)
-    with warnings.catch_warnings():
-        # The exporter that needs no further package tells at length that there is a newer one.
-        warnings.simplefilter("ignore")
-        torch.onnx.export(
-            deployed, (blob,), str(path), dynamo=False, opset_version=17, input_names=["image"],
-            output_names=["peaks", "boxes"],
-        )  # fmt: skip
-    difference = largest_difference(net, path)
-    if difference > max_difference:
-        path.unlink()
-        raise ModelError(f"The exported detector differs from torch by {difference:.2g}; do not use it.")
-    return difference
+    return write_onnx(
+        Deployed(net).eval(), path, image="image", outputs=["peaks", "boxes"],
+        difference=lambda: largest_difference(net, path), max_difference=max_difference,
+    )  # fmt: skip
 
 
 def largest_difference(net: nn.Module, path: Path, *, pictures: int = 3, seed: int = 1) -> float:

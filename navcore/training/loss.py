@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import torch
 from torch import Tensor
 
+from navcore.training.box_overlap import intersection_over_union
 from navcore.training.targets import Targets
 
 
@@ -47,19 +48,14 @@ def box_loss(boxes: Tensor, wanted: Tensor, weight: Tensor, params: LossParams) 
 
 def overlap(boxes: Tensor, others: Tensor) -> Tensor:
     """Intersection over union (B, 2, h, w) of box values (B, 2, 4, h, w) that stand in the same cells."""
-    left, top, right, bottom = _sides(boxes)
-    other_left, other_top, other_right, other_bottom = _sides(others)
-    width = torch.minimum(right, other_right) - torch.maximum(left, other_left)
-    height = torch.minimum(bottom, other_bottom) - torch.maximum(top, other_top)
-    common = width.clamp(min=0) * height.clamp(min=0)
-    areas = (right - left) * (bottom - top) + (other_right - other_left) * (other_bottom - other_top)
-    return common / (areas - common).clamp(min=1e-6)
+    return intersection_over_union(_corners(boxes), _corners(others))
 
 
-def _sides(boxes: Tensor) -> tuple[Tensor, Tensor, Tensor, Tensor]:
+def _corners(boxes: Tensor) -> Tensor:
+    """(..., 4), the values last."""
     u, v, log_width, log_height = boxes.unbind(dim=2)
     half, height = log_width.clamp(-4, 6).exp() / 2, log_height.clamp(-4, 6).exp()
-    return u - half, v - height, u + half, v
+    return torch.stack((u - half, v - height, u + half, v), dim=-1)
 
 
 def loss(logits: Tensor, boxes: Tensor, wanted: Targets, params: LossParams) -> Tensor:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import copy
-import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,8 +13,8 @@ import torch
 from numpy.typing import NDArray
 from torch import Tensor, nn
 
-from navcore.errors import ModelError
 from navcore.training.model import INPUT_HEIGHT_PX, INPUT_WIDTH_PX
+from navcore.training.onnx_file import write_onnx
 from navcore.training.yolo_net import cell_centres, corners, flattened
 
 Singles = NDArray[np.float32]
@@ -45,19 +44,10 @@ def export_yolo(net: nn.Module, path: Path, *, max_difference: float = 1e-2) -> 
     Raises ModelError, and leaves no file, if that is more than `max_difference`.
     """
     deployed = DeployedYolo(net).eval()
-    blob = torch.zeros(1, 3, INPUT_HEIGHT_PX, INPUT_WIDTH_PX)
-    with warnings.catch_warnings():
-        # The exporter that needs no further package tells at length that there is a newer one.
-        warnings.simplefilter("ignore")
-        torch.onnx.export(
-            deployed, (blob,), str(path), dynamo=False, opset_version=17, input_names=["images"],
-            output_names=["output0"],
-        )  # fmt: skip
-    difference = _largest_difference(deployed, path)
-    if difference > max_difference:
-        path.unlink()
-        raise ModelError(f"The exported detector differs from torch by {difference:.2g}; do not use it.")
-    return difference
+    return write_onnx(
+        deployed, path, image="images", outputs=["output0"], difference=lambda: _largest_difference(deployed, path),
+        max_difference=max_difference,
+    )  # fmt: skip
 
 
 def _largest_difference(deployed: nn.Module, path: Path, *, pictures: int = 2, seed: int = 1) -> float:

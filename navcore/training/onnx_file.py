@@ -1,0 +1,35 @@
+"""An ONNX file of a network, which stays only if it tells the same as torch does."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable
+from pathlib import Path
+
+import torch
+from torch import nn
+
+from navcore.errors import ModelError
+from navcore.training.model import INPUT_HEIGHT_PX, INPUT_WIDTH_PX
+
+
+def write_onnx(
+    deployed: nn.Module, path: Path, *, image: str, outputs: list[str], difference: Callable[[], float],
+    max_difference: float,
+) -> float:  # fmt: skip
+    """Write a network of one input, called `image`, to `path`; the `difference` that is measured of the file then.
+
+    Raises ModelError, and leaves no file, if that is more than `max_difference`.
+    """
+    blob = torch.zeros(1, 3, INPUT_HEIGHT_PX, INPUT_WIDTH_PX)
+    with warnings.catch_warnings():
+        # The exporter that needs no further package tells at length that there is a newer one.
+        warnings.simplefilter("ignore")
+        torch.onnx.export(
+            deployed, (blob,), str(path), dynamo=False, opset_version=17, input_names=[image], output_names=outputs
+        )
+    measured = difference()
+    if measured > max_difference:
+        path.unlink()
+        raise ModelError(f"The exported detector differs from torch by {measured:.2g}; do not use it.")
+    return measured
