@@ -63,13 +63,13 @@ class PlantSightings:
 
     def forget(self) -> None:
         """Begin anew: another row, or pictures that do not follow each other."""
-        self.driven, self.pictures = 0.0, 0
+        self.driven, self._pictures = 0.0, 0
         self._next = 0.0
         self._plants: list[tuple[bool, float]] = []
         self._rows: list[tuple[float, ...]] = []
 
-    def add(self, row: GroundRow, motion: SE2, stretch: float) -> bool:
-        """Take one picture's row; True if it counted.
+    def add(self, row: GroundRow, motion: SE2, stretch: float) -> None:
+        """Take one picture's row.
 
         `motion` is `T_last_now` of the driving frame; `stretch` (1/m) frees distances of a known lean: a foot `y` to
         the left is taken 1 + y * stretch times as far away.
@@ -77,13 +77,12 @@ class PlantSightings:
         heading_before = row.heading + motion.yaw
         self.driven += motion.x * math.cos(heading_before) + motion.y * math.sin(heading_before)
         if self.driven < self._next:
-            return False
+            return
         self._next = self.driven + self._params.every
         for left, xs in ((True, row.left_x), (False, row.right_x)):
             for x in xs:
                 self._see(row, left, float(x), stretch)
-        self.pictures += 1
-        return True
+        self._pictures += 1
 
     def _see(self, row: GroundRow, left: bool, x: float, stretch: float) -> None:
         p, c, s = self._params, math.cos(row.heading), math.sin(row.heading)
@@ -92,7 +91,7 @@ class PlantSightings:
         if p.least_range < ahead < p.most_range:
             along = self.driven + (ahead + self._camera_x) * c + y * s
             plant = self._plant(left, along, max(p.gate, p.gate_share * ahead))
-            self._rows.append((self.pictures, plant, ahead, y, along, left))
+            self._rows.append((self._pictures, plant, ahead, y, along, left))
 
     def _plant(self, left: bool, along: float, gate: float) -> int:
         """Number of the plant that stands there, a new one if none does."""
