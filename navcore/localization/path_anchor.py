@@ -10,10 +10,17 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 
+import numpy as np
+from numpy.typing import NDArray
+
 from navcore.geometry.angles import wrap
 from navcore.geometry.se2 import SE2
+from navcore.localization.path_slide import PathSlide, PathSlideParams
+from navcore.localization.row_filter import RowFilter, RowFilterParams
 from navcore.localization.row_line import RowLine
 from navcore.localization.wheel_slip import WheelSlip, WheelSlipParams
+
+Floats = NDArray[np.float64]
 
 HALF_TURN = SE2(0.0, 0.0, math.pi)
 
@@ -23,14 +30,8 @@ class PathAnchorParams:
     """Parameters of `PathAnchor`.
 
     Attributes:
-        slide: how fast the followed path may move sideways, m/s, > 0.
-        slide_along: how fast it may move along the driving direction, m/s, > 0.
-        patience: no further away from the robot than this does the path slide, m: it waits until the robot follows.
-        turn: how fast it may turn, rad/s, > 0.
-        slide_share, along_share, turn_share: the same per metre driven, m, m and rad: a robot that creeps round a
-            bend must not chase a path that runs off to the side.
-        growth_lateral: 1-sigma of the lateral drift of odometry, m per square root of m driven, > 0.
-        growth_heading: 1-sigma of the heading drift, rad per square root of m driven, > 0.
+        slide: how fast the followed path may move to the wanted one.
+        row: how what is seen of a row corrects it.
         map_lateral: 1-sigma of where a drawn row lies, m (survey by orthophoto: 0.3 to 0.8 m).
         next_lateral: 1-sigma of where the next row lies, seen from the one that was just left, m.
         map_heading: 1-sigma of its direction, rad.
@@ -42,15 +43,8 @@ class PathAnchorParams:
         growth_along: 1-sigma of the drift along the path, m per square root of m driven (wheel slip).
     """
 
-    slide: float = 0.15
-    slide_along: float = 0.3
-    patience: float = 0.35
-    turn: float = 0.10
-    slide_share: float = 0.3
-    along_share: float = 0.5
-    turn_share: float = 0.25
-    growth_lateral: float = 0.02
-    growth_heading: float = 0.005
+    slide: PathSlideParams = field(default_factory=PathSlideParams)
+    row: RowFilterParams = field(default_factory=RowFilterParams)
     map_lateral: float = 0.45
     next_lateral: float = 0.2
     map_heading: float = 0.03
@@ -73,15 +67,18 @@ class PathAnchor:
         self.params = params
         self.T_map_odom = T_map_odom
         self.followed = self.departed = T_map_odom
-        self.var_lateral = self.var_heading = self.var_along = 0.0
-        self.put_back = self.row_heading = 0.0
+        self.row = RowFilter(params.row)
+        self._slide = PathSlide(params.slide)
+        self.var_along = self.put_back = self.row_heading = 0.0
         self.slip = WheelSlip(params.slip)
         self.unsure()
 
     def unsure(self) -> None:
         """Forget how well the drawn row is known: the next row is told by the map alone."""
         p = self.params
-        self.var_lateral, self.var_heading, self.var_along = p.map_lateral**2, p.map_heading**2, p.map_along**2
+        self.row.unsure(p.map_lateral, p.map_heading)
+        self.row.new_gyro()
+        self.var_along = p.map_along**2
         self._driven = self._held_back = 0.0
         self._contradictions = 0
         self.slip.begin()
@@ -89,8 +86,8 @@ class PathAnchor:
     def next_row(self) -> None:
         """Another row, reached from the last one: the map knows their distance better than their place."""
         p = self.params
-        self.var_lateral = max(self.var_lateral, p.next_lateral**2)
-        self.var_heading, self.var_along = p.map_heading**2, p.map_along**2
+        self.row.unsure(max(math.sqrt(self.row.covariance[0, 0]), p.next_lateral), p.map_heading)
+        self.var_along = p.map_along**2
         self._driven = self._held_back = 0.0
         self.departed = self.T_map_odom
         self.slip.begin()
@@ -98,17 +95,17 @@ class PathAnchor:
     @property
     def departed_stds(self) -> tuple[float, float]:
         """1-sigma of where the next row lies by `departed`: across it, m, and its direction, rad."""
-        p = self.params
-        across = math.sqrt(p.next_lateral**2 + p.growth_lateral**2 * self._driven)
-        return across, math.sqrt(p.map_heading**2 + p.growth_heading**2 * self._driven)
+        p, growth = self.params, self.params.row
+        across = math.sqrt(p.next_lateral**2 + growth.growth_lateral**2 * self._driven)
+        return across, math.sqrt(p.map_heading**2 + growth.growth_heading**2 * self._driven)
 
-    def drive(self, distance: float) -> None:
-        """Let the uncertainty grow over a driven distance, m."""
+    def drive(self, distance: float, dt: float, T_odom_now: SE2) -> None:
+        """Let the uncertainty grow over `distance` m, driven in `dt` s; turn by what the gyro tells too little."""
         p, d = self.params, abs(distance)
         self._driven += d
-        self.var_lateral += p.growth_lateral**2 * d
-        self.var_heading += p.growth_heading**2 * d
         self.var_along += p.growth_along**2 * d
+        turned = T_odom_now @ SE2(0.0, 0.0, self.row.drive(d, dt)) @ T_odom_now.inverse()
+        self.T_map_odom, self.departed = self.T_map_odom @ turned, self.departed @ turned
 
     def follow(self, T_map_odom: SE2) -> None:
         """Take the pose filter's tie."""
@@ -131,20 +128,16 @@ class PathAnchor:
             T_odom_before, T_odom_now, ((1.0 - share) * (now.x - before.x), (1.0 - share) * (now.y - before.y))
         )
 
-    def see_row(
-        self, row: RowLine, T_odom_drive: SE2, offset: float, heading: float, offset_std: float, heading_std: float
-    ) -> None:
-        """Lay the drawn row onto the seen centre line (`offset`, `heading` as in RowObservation, at capture)."""
+    def see_row(self, row: RowLine, T_odom_drive: SE2, offset: float, heading: float, noise: Floats) -> None:
+        """Lay the drawn row onto the seen centre line (`offset`, `heading` as in RowObservation, at capture).
+
+        `noise` (2, 2) is the covariance of both.
+        """
         self.row_heading = row.heading
         at = row.coordinates(self.T_map_odom @ T_odom_drive)
-        gain_lateral = self.var_lateral / (self.var_lateral + offset_std**2)
-        gain_heading = self.var_heading / (self.var_heading + heading_std**2)
-        seen_yaw = wrap(-heading)
-        lateral = at.y + gain_lateral * (-offset - at.y)
-        yaw = at.yaw + gain_heading * wrap(seen_yaw - at.yaw)
-        self.var_lateral *= 1.0 - gain_lateral
-        self.var_heading *= 1.0 - gain_heading
-        self._set(row.pose(SE2(at.x, lateral, yaw)), T_odom_drive)
+        innovation = np.array((-offset - at.y, wrap(-heading - at.yaw)))
+        across, turn = self.row.look(innovation, noise, inside=at.x > 0.0)
+        self._set(row.pose(SE2(at.x, at.y + across, at.yaw + turn)), T_odom_drive)
 
     def see_along(self, row: RowLine, T_odom_drive: SE2, along: float, std: float) -> None:
         """Correct the position along the row: `along` is the row coordinate x of the driving frame, m."""
@@ -191,45 +184,25 @@ class PathAnchor:
         self.T_map_odom = T_map_drive @ T_odom_drive.inverse()
 
     def slide(
-        self, T_odom_drive: SE2, dt: float, driven: float, heading: float, lateral_error: float = 0.0
-    ) -> SE2:  # fmt: skip
-        """Move the followed tie towards the wanted one, `dt` seconds and `driven` metres after the last time.
+        self,
+        T_odom_drive: SE2,
+        dt: float,
+        driven: float,
+        heading: float,
+        lateral_error: float = 0.0,
+        gentle: bool = False,
+    ) -> SE2:
+        """Move the followed tie towards the wanted one, `dt` s and `driven` m after the last time.
 
-        `heading` is the path's direction here in `map`, rad: what is sideways and what is along is the path's, not
-        that of a robot that swings about it, or a place put back by a metre pulls a turned robot off its line.
-        `lateral_error` is the robot's distance from its path now, positive on its left. Returns the followed pose of
-        the driving frame.
+        `heading`, `lateral_error` and `gentle` as in `PathSlide`. Returns the followed pose of the driving frame.
         """
         at, wanted = self.followed @ T_odom_drive, self.T_map_odom @ T_odom_drive
-        c, s = math.cos(heading), math.sin(heading)
-        dx, dy = wanted.x - at.x, wanted.y - at.y
-        p, d = self.params, abs(driven)
-        sideways = c * dy - s * dx
-        aside = self._patience(sideways, lateral_error) * min(p.slide * dt, p.slide_share * d)
-        # In a bend what slides along the path becomes an error to the side.
-        ahead = max(1.0 - abs(lateral_error) / p.patience, 0.0) * min(p.slide_along * dt, p.along_share * d)
-        along, across = _at_most(c * dx + s * dy, ahead, sideways, aside)
-        turn = _within(wrap(wanted.yaw - at.yaw), min(p.turn * dt, p.turn_share * d))
-        pose = SE2(at.x + c * along - s * across, at.y + s * along + c * across, wrap(at.yaw + turn))
+        pose = self._slide.towards(
+            at, wanted, heading, lateral_error, self._slide.reach(dt, abs(driven), gentle=gentle)
+        )
         self.followed = pose @ T_odom_drive.inverse()
         return pose
-
-    def _patience(self, sideways: float, lateral_error: float) -> float:
-        """Share of the rate: less the further the path would run away from the robot."""
-        if sideways * lateral_error <= 0.0:
-            return 1.0
-        return max(1.0 - abs(lateral_error) / self.params.patience, 0.0)
 
     def jump(self) -> None:
         """Follow the wanted tie at once (allowed at standstill only)."""
         self.followed = self.T_map_odom
-
-
-def _at_most(along: float, ahead: float, across: float, aside: float) -> tuple[float, float]:
-    """Both in the same proportion: so the path stays between the two ties in bends as well."""
-    share = min(1.0, ahead / max(abs(along), 1e-9), aside / max(abs(across), 1e-9))
-    return share * along, share * across
-
-
-def _within(value: float, limit: float) -> float:
-    return min(max(value, -limit), limit)

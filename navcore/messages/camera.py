@@ -64,7 +64,7 @@ class RowObservation:
         reason: why there is none, a short sentence; empty when valid.
         offset: signed distance from the driving frame's origin to the centre line, m, positive if the line is left.
         heading: direction of the centre line in the driving frame, rad.
-        offset_std, heading_std: 1-sigma.
+        offset_std, heading_std: 1-sigma. correlation: of both errors, in (-1, 1).
         quality: 0 to 1.
         width: corridor width, m, None if not known.
         end_distance: distance ahead at which the row ends, m, None if no end is in sight.
@@ -86,6 +86,7 @@ class RowObservation:
     heading: float | None = None
     offset_std: float | None = None
     heading_std: float | None = None
+    correlation: float = 0.0
     quality: float = 0.0
     width: float | None = None
     end_distance: float | None = None

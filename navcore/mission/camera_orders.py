@@ -21,6 +21,6 @@ def camera_request(pilot: Pilot, at: Position) -> CameraRequest | None:
     return CameraRequest(
         stamp_ns=at.now_ns, camera=pilot.camera(), odom_x=at.T_odom_base.x, odom_y=at.T_odom_base.y,
         odom_yaw=at.T_odom_base.yaw, offset=-seen_from.y, heading=wrap(-seen_from.yaw),
-        offset_std=math.sqrt(pilot.anchor.var_lateral), width=segment.corridor_width, to_start=-seen_from.x,
+        offset_std=math.sqrt(pilot.anchor.row.covariance[0, 0]), width=segment.corridor_width, to_start=-seen_from.x,
         to_end=row_length(segment) - seen_from.x, roll=turned * at.lean[0], pitch=turned * at.lean[1],
     )  # fmt: skip

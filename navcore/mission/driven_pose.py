@@ -56,8 +56,9 @@ def row_covariance(pilot: Pilot) -> Floats:
     heading = row.heading if row is not None else anchor.row_heading
     c, s = math.cos(heading), math.sin(heading)
     turn = np.array(((c, -s, 0.0), (s, c, 0.0), (0.0, 0.0, 1.0)))
-    across = anchor.var_lateral + ALIKE**2
-    covariance: Floats = turn @ np.diag((anchor.var_along, across, anchor.var_heading)) @ turn.T
+    in_row = np.diag((anchor.var_along, ALIKE**2, 0.0))
+    in_row[1:, 1:] += anchor.row.covariance[:2, :2]
+    covariance: Floats = turn @ in_row @ turn.T
     return covariance
 
 

@@ -7,6 +7,7 @@ import math
 from navcore.geometry.polyline import Projection
 from navcore.geometry.se2 import SE2
 from navcore.localization.path_anchor import HALF_TURN, PathAnchor
+from navcore.localization.row_filter import look_noise
 from navcore.localization.row_line import RowLine
 from navcore.messages import CameraName, MissionPlan, ModeSwitch, NavMode, PathSegment, RowObservation, SegmentKind
 from navcore.mission.evidence import NO_IDEA, Doubt, RowEvidence
@@ -85,9 +86,10 @@ class Pilot:
         if self.mode is NavMode.GNSS_PATH and at.T_map_base is not None:
             self.anchor.follow(at.T_map_base @ at.T_odom_base.inverse())
         heading = self.leg.line.heading_at(self.place.s)
+        on_road = self.mode is NavMode.GNSS_PATH
         self.pose = self.anchor.slide(
-            self.driving_pose(at.T_odom_base), dt, driven, heading, self.projection.lateral
-        )  # fmt: skip
+            self.driving_pose(at.T_odom_base), dt, driven, heading, self.projection.lateral, on_road
+        )
         self.projection = self._project(self.place.s)
         self.captured = self.captured or abs(self.projection.lateral) <= self.params.capture
         self.place = Place(self.place.leg, self.projection.s)
@@ -107,7 +109,9 @@ class Pilot:
         """Drive on by odometry; the distance, m."""
         moved = self._at.T_odom_base.inverse() @ at.T_odom_base
         distance = math.hypot(moved.x, moved.y)
-        self.anchor.drive(distance)
+        if at.standing:
+            self.anchor.row.new_gyro()
+        self.anchor.drive(distance, (at.now_ns - self._at.now_ns) * 1e-9, at.T_odom_base)
         self.carried = self.carried + distance if self.mode in CARRIED else 0.0
         if self.mode is not NavMode.GNSS_PATH:
             self._take_drift(self._at, at)
@@ -134,8 +138,8 @@ class Pilot:
             return
         turned_to = self.mode is NavMode.HEADLAND and self._turned_to_row(row, T_odom_drive)
         if (self.mode in ON_CAMERA or turned_to) and seen.offset is not None and seen.heading is not None:
-            stds = seen.offset_std or 0.05, seen.heading_std or 0.02
-            self.anchor.see_row(row, T_odom_drive, seen.offset, seen.heading, *stds)
+            noise = look_noise(seen.offset_std or 0.05, seen.heading_std or 0.02, seen.correlation)
+            self.anchor.see_row(row, T_odom_drive, seen.offset, seen.heading, noise)
             self.carried = 0.0
         if self.mode in ALONG_ROW:
             self._see_along(seen, row, T_odom_drive, row_length(segment))

@@ -21,9 +21,11 @@ def row_observation(
     if isinstance(ground, str):
         return RowObservation(stamp_ns=stamp_ns, camera=name, valid=False, reason=ground, end_distance=end)
     image_offset, image_heading = published or (None, None)
+    offset_std, heading_std = math.sqrt(ground.covariance[0, 0]), math.sqrt(ground.covariance[1, 1])
+    correlation = float(ground.covariance[0, 1]) / (offset_std * heading_std)
     return RowObservation(
         stamp_ns=stamp_ns, camera=name, valid=True, reason="", offset=ground.offset, heading=ground.heading,
-        offset_std=math.sqrt(ground.covariance[0, 0]), heading_std=math.sqrt(ground.covariance[1, 1]),
+        offset_std=offset_std, heading_std=heading_std, correlation=correlation,
         quality=ground.quality, width=ground.width, end_distance=end, seen_to=seen_to,
         objects=len(ground.left_x) + len(ground.right_x), left_seen=lines.left_seen, right_seen=lines.right_seen,
         image_offset=image_offset, image_heading=image_heading, lean=lean.roll if lean else None,

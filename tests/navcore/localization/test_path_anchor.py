@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 
 from navcore.geometry.se2 import SE2
 from navcore.localization.path_anchor import PathAnchor, PathAnchorParams
+from navcore.localization.row_filter import look_noise
 from navcore.localization.row_line import RowLine
 
 ROW = RowLine(10.0, 5.0, 0.3)
@@ -15,6 +16,10 @@ ROW = RowLine(10.0, 5.0, 0.3)
 
 def anchored() -> PathAnchor:
     return PathAnchor(SE2(2.0, 1.0, 0.1), PathAnchorParams())
+
+
+def drive(anchor: PathAnchor, distance: float) -> None:
+    anchor.drive(distance, distance / 0.6, SE2())
 
 
 def test_row_coordinates_round_trip() -> None:
@@ -26,7 +31,8 @@ def test_row_coordinates_round_trip() -> None:
 def test_seen_row_places_the_robot_beside_the_drawn_one() -> None:
     anchor, odom = anchored(), SE2(8.0, 3.0, 0.25)
     for _ in range(50):
-        anchor.see_row(ROW, odom, offset=0.4, heading=-0.05, offset_std=0.03, heading_std=0.01)
+        drive(anchor, 0.1)
+        anchor.see_row(ROW, odom, offset=0.4, heading=-0.05, noise=look_noise(0.03, 0.01, 0.0))
     at = ROW.coordinates(anchor.T_map_odom @ odom)
     assert at.y == pytest.approx(-0.4, abs=0.02)
     assert at.yaw == pytest.approx(0.05, abs=0.005)
@@ -35,7 +41,7 @@ def test_seen_row_places_the_robot_beside_the_drawn_one() -> None:
 def test_seeing_a_row_does_not_move_the_robot_along_it() -> None:
     anchor, odom = anchored(), SE2(8.0, 3.0, 0.25)
     before = ROW.coordinates(anchor.T_map_odom @ odom).x
-    anchor.see_row(ROW, odom, offset=0.4, heading=-0.05, offset_std=0.03, heading_std=0.01)
+    anchor.see_row(ROW, odom, offset=0.4, heading=-0.05, noise=look_noise(0.03, 0.01, 0.0))
     assert ROW.coordinates(anchor.T_map_odom @ odom).x == pytest.approx(before, abs=1e-9)
 
 
@@ -50,7 +56,7 @@ def test_row_end_corrects_the_place_along_the_row() -> None:
 def test_a_row_that_goes_on_holds_the_robot_back_and_never_pushes_it() -> None:
     """Wheels that slip by 7 % tell 4 m too many in a row of 60 m."""
     anchor, odom = anchored(), SE2(8.0, 3.0, 0.25)
-    anchor.drive(60.0)
+    drive(anchor, 60.0)
     x = ROW.coordinates(anchor.T_map_odom @ odom).x
     anchor.see_no_end(ROW, odom, at_most=x + 2.0)
     assert ROW.coordinates(anchor.T_map_odom @ odom).x == pytest.approx(x)
@@ -61,8 +67,8 @@ def test_a_row_that_goes_on_holds_the_robot_back_and_never_pushes_it() -> None:
 def test_after_a_row_that_was_shorter_than_told_less_is_taken_for_driven() -> None:
     """However long the road was that led there on GNSS."""
     anchor, start, odom = anchored(), SE2(8.0, 3.0, 0.25), SE2(8.0, 3.0, 0.25) @ SE2(60.0, 0.0, 0.0)
-    anchor.drive(100.0)
-    anchor.drive(60.0)
+    drive(anchor, 100.0)
+    drive(anchor, 60.0)
     anchor.slip_back(start, odom)
     x = ROW.coordinates(anchor.T_map_odom @ odom).x
     for _ in range(30):
@@ -78,14 +84,14 @@ def test_ends_seen_now_nearer_now_further_add_up_to_no_way_driven() -> None:
     anchor, odom = anchored(), SE2(8.0, 3.0, 0.25)
     x = ROW.coordinates(anchor.T_map_odom @ odom).x
     for i in range(400):
-        anchor.drive(0.001)
+        drive(anchor, 0.001)
         anchor.see_along(ROW, odom, along=x + (0.2 if i % 2 else -0.2), std=0.4)
     assert abs(anchor.put_back) < 0.2  # m
 
 
 def test_what_stands_beyond_the_row_cannot_hold_the_robot_for_ever() -> None:
     anchor, odom = anchored(), SE2(8.0, 3.0, 0.25)
-    anchor.drive(50.0)
+    drive(anchor, 50.0)
     x = ROW.coordinates(anchor.T_map_odom @ odom).x
     for _ in range(100):
         anchor.see_no_end(ROW, odom, at_most=x - 30.0)
@@ -102,10 +108,10 @@ def test_followed_pose_never_jumps(
     before = anchor.followed @ odom
     anchor.follow(SE2(2.0 + dx, 1.0 + dy, 0.1 + turn))
     after = anchor.slide(odom, dt, driven, heading)
-    params = anchor.params
+    params = anchor.params.slide
     moved = SE2(before.x, before.y, heading).inverse() @ after
-    assert abs(moved.y) <= min(params.slide * dt, params.slide_share * driven) + 1e-9
-    assert abs(moved.x) <= min(params.slide_along * dt, params.along_share * driven) + 1e-9
+    assert abs(moved.y) <= min(params.across * dt, params.across_share * driven) + 1e-9
+    assert abs(moved.x) <= min(params.along * dt, params.along_share * driven) + 1e-9
     assert abs(after.yaw - before.yaw) <= min(params.turn * dt, params.turn_share * driven) + 1e-9
 
 
@@ -135,7 +141,7 @@ def test_a_place_put_back_along_the_row_does_not_pull_a_turned_robot_off_its_lin
     anchor, odom = anchored(), SE2(8.0, 3.0, 0.45)
     before = ROW.coordinates(anchor.followed @ odom)
     assert abs(before.yaw) > 0.1  # rad
-    anchor.drive(20.0)
+    drive(anchor, 20.0)
     anchor.see_no_end(ROW, odom, at_most=before.x - 1.0)
     for _ in range(100):
         now = ROW.coordinates(anchor.slide(odom, 0.02, 0.01, ROW.heading))
@@ -153,7 +159,7 @@ def test_a_row_end_far_from_where_it_can_be_is_not_believed() -> None:
 def test_a_gap_taken_for_the_end_is_given_up_when_the_true_end_is_seen_again_and_again() -> None:
     """A robot once turned 3 m before the true end, which it saw all the while."""
     anchor, odom = anchored(), SE2(8.0, 3.0, 0.25)
-    anchor.drive(60.0)
+    drive(anchor, 60.0)
     x = ROW.coordinates(anchor.T_map_odom @ odom).x
     for _ in range(30):
         anchor.see_along(ROW, odom, along=x + 3.2, std=0.4)
@@ -179,4 +185,4 @@ def test_the_path_waits_for_a_robot_that_does_not_follow() -> None:
     for _ in range(500):
         lateral = (before.inverse() @ anchor.followed @ odom).y
         anchor.slide(odom, 0.02, 0.01, before.yaw, lateral)
-    assert (before.inverse() @ anchor.followed @ odom).y <= anchor.params.patience  # m
+    assert (before.inverse() @ anchor.followed @ odom).y <= anchor.params.slide.patience  # m
