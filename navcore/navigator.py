@@ -103,14 +103,17 @@ class Navigator:
         return Position(
             now_ns=now_ns, T_odom_base=s.T_odom_base, T_map_base=s.T_map_base, gnss_std=s.pose_std,
             gnss_streak=s.gnss.streak, standing=s.standing,
-            lean=s.attitude.against_ground(s.T_odom_base.yaw),
+            yaw_std=math.sqrt(max(s.pose.covariance[8], 0.0)) if s.pose else 0.0,
+            lean=s.attitude.against_ground(s.T_odom_base.yaw), roll=s.attitude.roll,
         )  # fmt: skip
 
     def _advance(self, at: Position, rows: tuple[RowObservation, ...], dt: float) -> ModeSwitch | None:
         if self.pilot is None or self.state not in UNDER_WAY:
             return None
         seen = tuple((row, self.senses.filter.odom_at(row.stamp_ns)) for row in rows)
-        return self.pilot.advance(at, seen, dt)
+        switch = self.pilot.advance(at, seen, dt)
+        self.senses.filter.learn_creep(self.pilot.anchor.row.take_creep())
+        return switch
 
     def _hear(self, at: Position, requests: tuple[Request, ...]) -> tuple[tuple[Reply, ...], RequestKind | None]:
         """Answer every request; the newest accepted one counts, a stop before all others."""

@@ -32,6 +32,7 @@ class Belief:
         moved_ns: when the wheels turned last.
         quality: of the newest fix that was used; the GNSS error states belong to it.
         slow: 1-sigma of that fix's slow error, m.
+        fixed_ns: capture time of the first of the RTK fixes in a row.
         fix_ns: capture time of the newest accepted fix.
         distance: driven since then, m.
         doubt_ns: capture time of the first of the fixes in a row that were rejected, None if the last was accepted.
@@ -50,6 +51,7 @@ class Belief:
     moved_ns: int = 0
     quality: FixQuality = FixQuality.NONE
     slow: float = 0.0
+    fixed_ns: int = 0
     fix_ns: int = 0
     distance: float = 0.0
     doubt_ns: int | None = None
@@ -67,8 +69,8 @@ class Belief:
         """An independent belief. The constructor is much faster than copy.copy and dataclasses.replace."""
         return Belief(
             self.stamp_ns, self.mean.copy(), self.cov.copy(), self.v_wheel, self.omega_wheel, self.gyro, self.gyro_ns,
-            self.moved_ns, self.quality, self.slow, self.fix_ns, self.distance, self.doubt_ns, self.doubt,
-            self.agree_ns, self.heading_doubt_ns,
+            self.moved_ns, self.quality, self.slow, self.fixed_ns, self.fix_ns, self.distance, self.doubt_ns,
+            self.doubt, self.agree_ns, self.heading_doubt_ns,
         )  # fmt: skip
 
     def forget(self, states: list[int], stds: list[float]) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from bisect import bisect_right
 from dataclasses import dataclass
 
@@ -22,6 +23,7 @@ class DeadReckoningParams:
         gyro_timeout_s: a gyro silent for longer is replaced by the wheels' turn rate, divided by wheel_turn_ratio.
         ahead_s: a pose is extrapolated at most so far beyond the newest input.
         most_scale: no more than this share of the wheels' speed is taken for their error.
+        most_creep: no more creep downhill is believed, per metre driven and unit of slope.
         most_bias: no more than this turn rate is taken for the gyro's error, rad/s; consumer MEMS stay below 0.02.
     """
 
@@ -32,6 +34,7 @@ class DeadReckoningParams:
     wheel_turn_ratio: float = 1.6
     ahead_s: float = 0.5
     most_scale: float = 0.1
+    most_creep: float = 1.0
     most_bias: float = 0.02
 
 
@@ -47,7 +50,7 @@ class DeadReckoning:
         self._gyro = 0.0
         self._gyro_ns: int | None = None
         self._moved_ns: int | None = None
-        self._bias = 0.0
+        self._bias = self._creep = self._slope = 0.0
         self._scale = 1.0
 
     def learn_scale(self, speed_scale: float) -> None:
@@ -59,6 +62,14 @@ class DeadReckoning:
         """From now on the gyro is wrong by so many rad/s: its bias wanders while the robot drives."""
         most = self._p.most_bias
         self._bias = min(max(gyro_bias, -most), most)
+
+    def learn_creep(self, more: float) -> None:
+        """From now on the robot creeps so much more downhill, per metre driven and unit of slope."""
+        self._creep = min(max(self._creep + more, 0.0), self._p.most_creep)
+
+    def lean(self, roll: float) -> None:
+        """Roll against gravity, rad, left side up."""
+        self._slope = math.sin(roll)
 
     def add_wheels(self, stamp_ns: int, v: float, omega: float) -> None:
         """Measured speed, m/s, and turn rate of the wheels, rad/s."""
@@ -105,7 +116,8 @@ class DeadReckoning:
         self._prune(stamp_ns - round(self._p.history_s / NS))
 
     def _motion(self, dt: float, stamp_ns: int) -> SE2:
-        return SE2.arc(self._v * self._scale * dt, self._rate(stamp_ns) * dt)
+        driven = self._v * self._scale * dt
+        return SE2(0.0, -self._creep * self._slope * abs(driven), 0.0) @ SE2.arc(driven, self._rate(stamp_ns) * dt)
 
     def _rate(self, stamp_ns: int) -> float:
         if self._is_still(stamp_ns):

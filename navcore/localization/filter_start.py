@@ -20,7 +20,7 @@ from navcore.localization.belief import (
 )
 from navcore.localization.gnss_correction import GnssCorrection, GnssCorrectionParams
 from navcore.localization.gnss_noise import GnssNoise
-from navcore.messages import GnssFix
+from navcore.messages import FixQuality, GnssFix
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -71,7 +71,7 @@ class FilterStart:
 
     def _direction(self, fix: GnssFix, v_wheel: float, omega: float) -> tuple[float | None, float]:
         if fix.heading_rad is not None:
-            return fix.heading_rad, self._noise.heading_variance(fix)
+            return fix.heading_rad, self._noise.heading_variance(fix, settled=fix.quality is FixQuality.RTK_FIXED)
         correction = GnssCorrection(self._gnss, self._noise)
         if fix.speed is None or not correction.course_is_told(fix, v_wheel, omega):
             return None, 0.0

@@ -25,6 +25,7 @@ class GnssCorrectionParams:
         antenna_x, antenna_y: antenna in `base_link`, m.
         position_gate: squared Mahalanobis distance with 2 degrees of freedom; 18.4 passes 99.99 %.
         heading_gate: the same with 1; 15.1 passes 99.99 %.
+        heading_settle_s: after an RTK fix is won, headings count as without one for so long.
         recover_s: rejected fixes that agree with each other for so long are believed: the pose is set anew.
         agree: m, fixes within this of each other, relative to the driven path, agree.
         course_speed: m/s, slower than this a course over ground says nothing.
@@ -35,6 +36,7 @@ class GnssCorrectionParams:
     antenna_y: float = 0.0
     position_gate: float = 18.4
     heading_gate: float = 15.1
+    heading_settle_s: float = 8.0
     recover_s: float = 3.0
     agree: float = 0.3
     course_speed: float = 0.5
@@ -87,6 +89,8 @@ class GnssCorrection:
         before, b.quality, b.slow = b.quality, fix.quality, self._noise.slow(fix)
         if fix.quality is not before and FixQuality.RTK_FIXED in (fix.quality, before):
             b.forget([GNSS_EAST, GNSS_NORTH], [b.slow] * 2)
+        if fix.quality is FixQuality.RTK_FIXED and fix.quality is not before:
+            b.fixed_ns = fix.stamp_ns
 
     def _position_jacobian(self, b: Belief) -> Floats:
         x, y = self.antenna(b)
@@ -116,7 +120,7 @@ class GnssCorrection:
         """Fixes that agreed with each other for long enough are right, and the belief was wrong."""
         place = b.mean[[X, Y]] + b.mean[[GNSS_EAST, GNSS_NORTH]] + residual
         if self._heading_is_doubted(b, fix) and fix.heading_rad is not None:
-            b.forget([YAW], [math.sqrt(self._noise.heading_variance(fix))])
+            b.forget([YAW], [math.sqrt(self._noise.heading_variance(fix, settled=self._is_settled(b, fix)))])
             b.mean[YAW] = fix.heading_rad
             b.heading_doubt_ns = None
         slow = self._noise.slow(fix)
@@ -128,10 +132,15 @@ class GnssCorrection:
         since = b.heading_doubt_ns
         return since is not None and (fix.stamp_ns - since) * NS >= self._p.recover_s
 
+    def _is_settled(self, b: Belief, fix: GnssFix) -> bool:
+        """The two antennas find their own fix some seconds after the receiver has found that of its place."""
+        return fix.quality is FixQuality.RTK_FIXED and (fix.stamp_ns - b.fixed_ns) * NS >= self._p.heading_settle_s
+
     def _heading(self, b: Belief, fix: GnssFix, heading: float) -> Verdict:
-        variance = self._noise.heading_variance(fix)
+        settled = self._is_settled(b, fix)
+        variance = self._noise.heading_variance(fix, settled=settled)
         turn = wrap(heading - float(b.mean[YAW]))
-        if self._turn(b, fix, turn, variance):
+        if self._turn(b, turn, variance, self._noise.direction_lasts(settled=settled)):
             b.heading_doubt_ns = None
             return Verdict(Evidence.HEADING, True)
         if b.heading_doubt_ns is None:
@@ -150,7 +159,8 @@ class GnssCorrection:
         assert fix.speed is not None
         yaw = wrap(fix.course_rad - self.drift_angle(b.v_wheel, omega))
         turn = wrap(yaw - float(b.mean[YAW]))
-        if self._turn(b, fix, turn, self._noise.course_variance(fix.speed)):
+        lasts = self._noise.direction_lasts(settled=fix.quality is FixQuality.RTK_FIXED)
+        if self._turn(b, turn, self._noise.course_variance(fix.speed), lasts):
             return Verdict(Evidence.COURSE, True)
         return Verdict(Evidence.COURSE, False, f"course is {abs(math.degrees(turn)):.0f} deg off the heading")
 
@@ -158,12 +168,12 @@ class GnssCorrection:
         """Direction in which the antenna moves, seen from the robot, rad; about pi in reverse."""
         return math.atan2(omega * self._p.antenna_x, v - omega * self._p.antenna_y)
 
-    def _turn(self, b: Belief, fix: GnssFix, turn: float, variance: float) -> bool:
+    def _turn(self, b: Belief, turn: float, variance: float, lasts: float) -> bool:
         """Believed if near by its own variance; it counts for less where errors last."""
         H = np.zeros((1, STATES))
         H[0, YAW] = 1.0
         residual, R = np.array((turn,)), np.array(((variance,),))
         if Innovation(b, H, residual, R).distance() > self._p.heading_gate:
             return False
-        Innovation(b, H, residual, R * self._noise.direction_lasts(fix.quality) ** 2).apply()
+        Innovation(b, H, residual, R * lasts**2).apply()
         return True

@@ -92,16 +92,15 @@ class GnssNoise:
         """Variances of the part that is new in this fix, east and north, m^2."""
         return self._axis(fix, fix.std_east_m), self._axis(fix, fix.std_north_m)
 
-    def heading_variance(self, fix: GnssFix) -> float:
-        """Variance of a dual antenna's heading, rad^2."""
+    def heading_variance(self, fix: GnssFix, *, settled: bool) -> float:
+        """Variance of a dual antenna's heading, rad^2; `settled` once the antennas have found their RTK fix."""
         told = fix.heading_std_rad
         std = self._p.heading_std if told is None else told * self._p.told_factor
-        fixed = fix.quality is FixQuality.RTK_FIXED
-        return max(std, self._p.heading_floor if fixed else self._p.vague_heading_floor) ** 2
+        return max(std, self._p.heading_floor if settled else self._p.vague_heading_floor) ** 2
 
-    def direction_lasts(self, quality: FixQuality) -> float:
+    def direction_lasts(self, *, settled: bool) -> float:
         """By how much wider the 1-sigma of directions weighs, as their errors last; 1 where they are new."""
-        return 1.0 if quality is FixQuality.RTK_FIXED else self._p.vague_lasts
+        return 1.0 if settled else self._p.vague_lasts
 
     def course_variance(self, speed: float) -> float:
         """Variance of the course over ground at `speed` m/s, rad^2."""

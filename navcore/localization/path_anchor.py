@@ -35,6 +35,7 @@ class PathAnchorParams:
         map_lateral: 1-sigma of where a drawn row lies, m (survey by orthophoto: 0.3 to 0.8 m).
         next_lateral: 1-sigma of where the next row lies, seen from the one that was just left, m.
         map_heading: 1-sigma of its direction, rad.
+        left_heading: 1-sigma of the direction by a row that has just been left, rad; left_growth: more per metre.
         map_along: 1-sigma of where it begins and ends, m.
         gate: a row end that lies further off than so many 1-sigma is not believed.
         insist: unless it is seen so many times in a row: then an earlier end was a gap in the row, and the place
@@ -48,6 +49,8 @@ class PathAnchorParams:
     map_lateral: float = 0.45
     next_lateral: float = 0.2
     map_heading: float = 0.03
+    left_heading: float = 0.015
+    left_growth: float = 0.002
     map_along: float = 0.8
     slip: WheelSlipParams = field(default_factory=WheelSlipParams)
     growth_along: float = 0.15
@@ -71,6 +74,7 @@ class PathAnchor:
         self._slide = PathSlide(params.slide)
         self.var_along = self.put_back = self.row_heading = 0.0
         self.slip = WheelSlip(params.slip)
+        self._left = False
         self.unsure()
 
     def unsure(self) -> None:
@@ -99,13 +103,32 @@ class PathAnchor:
         across = math.sqrt(p.next_lateral**2 + growth.growth_lateral**2 * self._driven)
         return across, math.sqrt(p.map_heading**2 + growth.growth_heading**2 * self._driven)
 
-    def drive(self, distance: float, dt: float, T_odom_now: SE2) -> None:
-        """Let the uncertainty grow over `distance` m, driven in `dt` s; turn by what the gyro tells too little."""
+    def drive(self, distance: float, dt: float, T_odom_now: SE2, slope: float = 0.0) -> None:
+        """Let the uncertainty grow over `distance` m, driven in `dt` s; turn by what the gyro tells too little.
+
+        `slope` as in `RowFilter.drive`.
+        """
         p, d = self.params, abs(distance)
         self._driven += d
         self.var_along += p.growth_along**2 * d
-        turned = T_odom_now @ SE2(0.0, 0.0, self.row.drive(d, dt)) @ T_odom_now.inverse()
+        turned = T_odom_now @ SE2(0.0, 0.0, self.row.drive(d, dt, slope)) @ T_odom_now.inverse()
         self.T_map_odom, self.departed = self.T_map_odom @ turned, self.departed @ turned
+
+    def leave(self) -> None:
+        """The rows are left for the road."""
+        self.departed, self._left = self.T_map_odom, True
+        self.unsure()
+
+    def follow_pose(self, T_map_base: SE2, T_odom_base: SE2, yaw_std: float) -> None:
+        """Take the pose filter's tie; its direction, 1-sigma `yaw_std` rad, with that of the row that was left.
+
+        Under leaves the filter's direction is degrees off, and mends only metres after its place.
+        """
+        by_row, p = (self.departed @ T_odom_base).yaw, self.params
+        row_std = p.left_heading + p.left_growth * self._driven if self._left else math.inf
+        share = 1.0 if math.isinf(row_std) else row_std**2 / (row_std**2 + yaw_std**2)
+        yaw = by_row + share * wrap(T_map_base.yaw - by_row)
+        self.follow(SE2(T_map_base.x, T_map_base.y, wrap(yaw)) @ T_odom_base.inverse())
 
     def follow(self, T_map_odom: SE2) -> None:
         """Take the pose filter's tie."""

@@ -146,6 +146,14 @@ class PoseFilter:
             source=self._source(belief),
         )
 
+    def lean(self, roll: float) -> None:
+        """How far the robot leans to the side against gravity, rad, left side up: on a slope it creeps downhill."""
+        self._odometry.lean(roll)
+
+    def learn_creep(self, more: float) -> None:
+        """By so much more than believed it creeps, per metre driven and unit of slope."""
+        self._odometry.learn_creep(more)
+
     def odom_at(self, stamp_ns: int) -> SE2:
         """Dead-reckoned pose in `odom`, which drifts but never jumps."""
         return self._odometry.pose_at(stamp_ns)

@@ -19,6 +19,7 @@ class RowFilterParams:
         growth_heading: 1-sigma of the heading drift, rad per square root of m driven, > 0.
         rate_std: 1-sigma of what is left of the gyro's bias, rad/s.
         rate_walk: by so much that changes, rad/s per square root of a second.
+        creep_std: 1-sigma of how far the robot creeps downhill per metre driven and unit of slope.
         same_plants: pictures taken within so many metres of a row tell of the same plants, m: together they tell as
             much as one. The last plants of a row tell its direction badly, and it is left by what they told.
         outside_share: from outside what is seen may still change with every metre: a picture never counts for less
@@ -30,28 +31,32 @@ class RowFilterParams:
     growth_heading: float = 0.001
     rate_std: float = 2e-4
     rate_walk: float = 2e-5
-    same_plants: float = 2.0
+    creep_std: float = 0.3
+    same_plants: float = 1.0
     outside_share: float = 0.12
     entrance_share: float = 4.0
 
 
 class RowFilter:
-    """Kalman filter of (across, m; direction, rad; turn rate, rad/s): the errors of odometry against the row.
+    """Kalman filter of (across, m; direction, rad; turn rate, rad/s; creep): the errors of odometry against the row.
 
-    `covariance` is (3, 3). The errors belong together: a gyro that turns becomes a wrong direction, that becomes an
-    error across as the robot drives, and a line laid through plants ahead is off at the robot when it is off in its
-    direction. `turn_rate` is what odometry turns too little, learned from the row and kept over the headland.
+    `covariance` is (4, 4). The errors belong together: a gyro that turns becomes a wrong direction, that and a side
+    slope become an error across as the robot drives, and a line laid through plants ahead is off at the robot when it
+    is off in its direction. `turn_rate` is what odometry turns too little, learned from the row and kept over the
+    headland. `creep` is what it creeps downhill too little.
     """
 
     def __init__(self, params: RowFilterParams) -> None:
         self._params = params
-        self.covariance: Floats = np.zeros((3, 3))
+        self.covariance: Floats = np.diag((0.0, 0.0, 0.0, params.creep_std**2))
+        self.creep = 0.0
         self.new_gyro()
         self.unsure(0.0, 0.0)
 
     def unsure(self, across_std: float, direction_std: float) -> None:
         """Begin with so much doubt of another row, m and rad."""
-        self.covariance = np.diag((across_std**2, direction_std**2, self.covariance[2, 2]))
+        rate, creep = self.covariance[2, 2], self.covariance[3, 3]
+        self.covariance = np.diag((across_std**2, direction_std**2, rate, creep))
         self._since, self._seen, self._inside = 0.0, False, False
 
     def new_gyro(self) -> None:
@@ -60,21 +65,28 @@ class RowFilter:
         self.covariance[2, :] = self.covariance[:, 2] = 0.0
         self.covariance[2, 2] = self._params.rate_std**2
 
-    def drive(self, distance: float, dt: float) -> float:
+    def drive(self, distance: float, dt: float, slope: float = 0.0) -> float:
         """Drive on by odometry for `distance` m, >= 0, in `dt` s; by so much it has turned too little, rad.
 
-        Until the row is seen, the map's word is no worse further on.
+        `slope` is the sine of the roll against gravity, positive where the driving frame's left side is up. Until the
+        row is seen, the map's word is no worse further on.
         """
         p = self._params
         if self._seen:
             turning = dt if self._inside else 0.0  # from outside, what is seen turns for other reasons
-            step = np.array(((1.0, distance, 0.0), (0.0, 1.0, turning), (0.0, 0.0, 1.0)))
+            step = np.eye(4)
+            step[0, 1], step[1, 2], step[0, 3] = distance, turning, -slope * distance
             self.covariance = step @ self.covariance @ step.T
         self.covariance += np.diag(
-            (p.growth_lateral**2 * distance, p.growth_heading**2 * distance, p.rate_walk**2 * dt)
+            (p.growth_lateral**2 * distance, p.growth_heading**2 * distance, p.rate_walk**2 * dt, 0.0)
         )
         self._since += distance
         return self.turn_rate * dt
+
+    def take_creep(self) -> float:
+        """What odometry should creep more from now on, per metre and unit of slope; asked for once."""
+        creep, self.creep = self.creep, 0.0
+        return creep
 
     def look(self, innovation: Floats, noise: Floats, *, inside: bool) -> tuple[float, float]:
         """The correction of across, m, and direction, rad, after a look at the row from inside it or from outside.
@@ -89,8 +101,9 @@ class RowFilter:
         if not inside:
             self._at_least(self._params.outside_share * noise)
         self._since, self._seen = 0.0, True
-        across, direction, rate = (float(a) for a in gain @ innovation)
+        across, direction, rate, creep = (float(a) for a in gain @ innovation)
         self.turn_rate += rate
+        self.creep += creep
         return across, direction
 
     def _enter(self, noise: Floats) -> None:
@@ -101,7 +114,7 @@ class RowFilter:
 
     def _at_least(self, floor: Floats) -> None:
         """Neither across nor direction better known than by `floor` (2, 2)."""
-        scale = np.ones(3)
+        scale = np.ones(4)
         scale[:2] = np.sqrt(np.maximum(np.diag(floor) / np.diag(self.covariance)[:2], 1.0))
         self.covariance = self.covariance * np.outer(scale, scale)
 

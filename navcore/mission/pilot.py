@@ -84,7 +84,7 @@ class Pilot:
         for seen, T_odom_base in row_seen:
             self._see(seen, self.driving_pose(T_odom_base))
         if self.mode is NavMode.GNSS_PATH and at.T_map_base is not None:
-            self.anchor.follow(at.T_map_base @ at.T_odom_base.inverse())
+            self.anchor.follow_pose(at.T_map_base, at.T_odom_base, at.yaw_std)
         heading = self.leg.line.heading_at(self.place.s)
         on_road = self.mode is NavMode.GNSS_PATH
         self.pose = self.anchor.slide(
@@ -111,7 +111,8 @@ class Pilot:
         distance = math.hypot(moved.x, moved.y)
         if at.standing:
             self.anchor.row.new_gyro()
-        self.anchor.drive(distance, (at.now_ns - self._at.now_ns) * 1e-9, at.T_odom_base)
+        slope = -math.sin(at.roll) if self.leg.reverse else math.sin(at.roll)
+        self.anchor.drive(distance, (at.now_ns - self._at.now_ns) * 1e-9, at.T_odom_base, slope)
         self.carried = self.carried + distance if self.mode in CARRIED else 0.0
         if self.mode is not NavMode.GNSS_PATH:
             self._take_drift(self._at, at)
@@ -201,7 +202,7 @@ class Pilot:
 
     def _on_switch(self, before: NavMode) -> None:
         if self.mode is NavMode.GNSS_PATH:
-            self.anchor.unsure()
+            self.anchor.leave()
             self._comes_from_gnss = True
         if self.mode is NavMode.HEADLAND:
             self.anchor.next_row()

@@ -17,7 +17,9 @@ class Position:
         T_map_base: the pose filter's, None without one.
         gnss_std, gnss_streak: see `ModeFacts`.
         standing: the robot does not move.
+        yaw_std: 1-sigma of the yaw of T_map_base, rad.
         lean: (roll, pitch) of `base_link` against the ground, rad.
+        roll: of `base_link` against gravity, rad, left side up.
     """
 
     now_ns: int
@@ -26,7 +28,9 @@ class Position:
     gnss_std: float | None
     gnss_streak: int
     standing: bool
+    yaw_std: float = 0.0
     lean: tuple[float, float] = (0.0, 0.0)
+    roll: float = 0.0
 
     def surely_at(self, std: float) -> SE2 | None:
         """The pose if it is known to `std` m."""

@@ -35,6 +35,7 @@ class Senses:
         for sample in inputs.imu:
             self.filter.add_imu(sample)
             self.attitude.add_imu(sample)
+            self.filter.lean(self.attitude.roll)
             self.check.add_imu(sample)
         for state in inputs.chassis:
             self.chassis = state

@@ -51,13 +51,18 @@ class Corridor:
         state: (4,).
         covariance: (4, 4).
         sides: (N,) +1 for a foot on the left line, -1 on the right, 0 for one that is no evidence.
-        x: (N,) distance of the feet ahead of the driving frame's origin, m; NaN where not on the ground.
+        xy: (N, 2) where the feet stand in the driving frame, m; NaN where not on the ground.
     """
 
     state: Floats
     covariance: Floats
     sides: Ints
-    x: Floats
+    xy: Floats
+
+    @property
+    def x(self) -> Floats:
+        """(N,) distance of the feet ahead of the driving frame's origin, m."""
+        return self.xy[:, 0]
 
 
 class CorridorFit:
@@ -92,7 +97,7 @@ class CorridorFit:
         sides = np.zeros(len(rays), dtype=np.int64)
         sides[used] = found
         covariance = np.asarray(np.linalg.inv(after), dtype=np.float64)
-        return Corridor(state=z, covariance=covariance, sides=sides, x=self._ahead(rays, float(z[3])))
+        return Corridor(state=z, covariance=covariance, sides=sides, xy=self._on_ground(rays, float(z[3])))
 
     def _rays(self, feet: Floats) -> tuple[Floats, Ints]:
         """Rays (N, 2) as (s, t), and the indices of the nearest of those that come down within range."""
@@ -105,7 +110,9 @@ class CorridorFit:
         nearest = np.argsort(-rays[in_range, 1], kind="stable")[: self._params.max_points]
         return rays, in_range[nearest]
 
-    def _ahead(self, rays: Floats, pitch: float) -> Floats:
-        c, s = math.cos(pitch), math.sin(pitch)
-        down = (s + rays[:, 1] * c) / (c - rays[:, 1] * s)
-        return np.asarray(self._camera.x + np.where(down > 1e-3, self._camera.z / np.maximum(down, 1e-3), np.nan))
+    def _on_ground(self, rays: Floats, pitch: float) -> Floats:
+        c, s, camera = math.cos(pitch), math.sin(pitch), self._camera
+        ahead = c - rays[:, 1] * s
+        down = (s + rays[:, 1] * c) / ahead
+        reach = np.where(down > 1e-3, camera.z / np.maximum(down, 1e-3), np.nan)
+        return np.column_stack((camera.x + reach, camera.y + reach * rays[:, 0] / ahead))

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from navcore.geometry.angles import wrap
 from navcore.geometry.se2 import SE2
 from navcore.perception.corridor_fit import CorridorFitParams
+from navcore.perception.passed_plants import PassedPlantsParams
 from navcore.perception.row_lines import RowPrior
 
 Floats = NDArray[np.float64]
@@ -22,7 +23,8 @@ class CorridorTrackerParams:
     """When a corridor is believed, and how fast belief fades. Ours; set on rendered frames.
 
     Attributes:
-        fit: of one picture.
+        fit: of one picture. passed: the plants that are out of sight.
+        along_deg: a robot turned further from the row than that does not drive along it.
         width, width_std: usual corridor width where none is told, m; `told_width_std` where one is.
         offset_std, heading_std_deg: prior of a robot somewhere in a corridor, without a `RowPrior`.
         pitch_std_deg: 1-sigma of the camera's pitch about its mount: +-2 deg of terrain; `told_pitch_std_deg` about
@@ -50,6 +52,8 @@ class CorridorTrackerParams:
     """
 
     fit: CorridorFitParams = CorridorFitParams()
+    passed: PassedPlantsParams = PassedPlantsParams()
+    along_deg: float = 12.0
     width: float = 3.0
     width_std: float = 0.45
     told_width_std: float = 0.15

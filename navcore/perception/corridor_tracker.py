@@ -22,6 +22,7 @@ from navcore.perception.corridor_track import (
     told_width,
 )
 from navcore.perception.image_lines import image_line
+from navcore.perception.passed_plants import PassedPlants
 from navcore.perception.row_lines import GroundRow, RowCue, RowLines, RowPrior
 
 Floats = NDArray[np.float64]
@@ -34,6 +35,7 @@ class CorridorTracker:
         self._camera = camera
         self._params = params
         self._fit = CorridorFit(camera, params.fit)
+        self._passed = PassedPlants(camera.x, params.passed)
         self._track: Track | None = None
 
     def forget(self) -> None:
@@ -54,15 +56,17 @@ class CorridorTracker:
         if self._track is None or cue.motion is None:
             return None
         track = moved(self._track, cue.motion, cue.prior, self._params)
+        self._passed.move(cue.motion)
         return None if other_row(track, cue.prior, self._params) else track
 
     def _follow(self, track: Track, corners: CornerPoints, told: Width) -> RowLines:
-        corridor = self._fit.follow(corners.feet, track.state, _inverse(track.covariance))
+        corridor = self._fit.follow(corners.feet, *self._with_passed(track))
         seen = int(np.count_nonzero(corridor.sides))
         near = int(np.count_nonzero(np.nan_to_num(corridor.x, nan=99.0) < 8.0))
         track.doubts = track.doubts + 1 if near >= 4 and seen < self._params.lost_share * near else 0
         if seen:
             track.unseen, track.pictures = 0.0, 0
+            self._remember(corridor)
         track.state, track.covariance = corridor.state, corridor.covariance
         reason = self._doubt(track, corridor, len(corners), told)
         if reason:
@@ -83,7 +87,23 @@ class CorridorTracker:
         if reason:
             return _nothing(corners, reason)
         self._track = track
+        self._passed.forget()
         return self._lines(corridor, corners)
+
+    def _remember(self, corridor: Corridor) -> None:
+        """A robot that turns into the row has passed no plant of it."""
+        if abs(corridor.state[1]) > math.radians(self._params.along_deg):
+            self._passed.forget()
+        else:
+            self._passed.see(corridor.xy, corridor.sides)
+
+    def _with_passed(self, track: Track) -> tuple[Floats, Floats]:
+        """What is expected of the corridor with what the plants tell that are out of sight: mean and information."""
+        known = _inverse(track.covariance)
+        more, vector = self._passed.information(track.state)
+        together = known + more
+        mean: Floats = np.linalg.solve(together, known @ track.state + vector).astype(np.float64)
+        return mean, together
 
     def _too_little(self, corridor: Corridor, prior: RowPrior | None, objects: int) -> str:
         """Why a corridor has too little evidence to begin with, empty if it has enough."""

@@ -28,7 +28,14 @@ def test_robot_changes_rows_over_the_headland_and_comes_home(park: Callable[[int
 
 
 def test_robot_changes_rows_while_gnss_has_no_fix_at_all(farm: SiteMap) -> None:
-    params = WorldParams(seed=4)
+    """The turn alone, by wheels and gyro, leaves 0.12 m on average: what is seen of the next row puts it right."""
+    off = [_off_without_a_fix(farm, seed) for seed in (4, 6, 9)]
+    assert statistics.mean(off) < 0.07, off  # m
+
+
+def _off_without_a_fix(farm: SiteMap, seed: int) -> float:
+    """Largest distance from the next row's centre line just before it, m."""
+    params = WorldParams(seed=seed)
     outage = replace(params.gnss, outages_s=((START_TO_ROW_S, 170.0),))
     drive = new_drive(farm, replace(params, gnss=outage))
     drive.start(farm, mission_for_row(farm, "r1", RowExit.NEXT_ROW))
@@ -36,7 +43,7 @@ def test_robot_changes_rows_while_gnss_has_no_fix_at_all(farm: SiteMap) -> None:
     tick = drive.until_mode(NavMode.ROW)
     assert tick.decision.status.row_id == "r0"
     assert not any(tick.decision.status.gnss_quality == 4 for tick in drive.ticks[-50:])
-    assert max(abs(e) for e in _off_next_row(drive, before_entrance=2.0)) < 0.07  # m; the turn alone leaves 0.10
+    return max(abs(e) for e in _off_next_row(drive, before_entrance=2.0))
 
 
 def _off_next_row(drive: Drive, before_entrance: float) -> list[float]:

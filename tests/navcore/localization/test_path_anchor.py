@@ -45,6 +45,25 @@ def test_seeing_a_row_does_not_move_the_robot_along_it() -> None:
     assert ROW.coordinates(anchor.T_map_odom @ odom).x == pytest.approx(before, abs=1e-9)
 
 
+def test_after_a_row_its_direction_counts_until_the_pose_filter_knows_better() -> None:
+    anchor, odom = anchored(), SE2(8.0, 3.0, 0.25)
+    by_row = anchor.T_map_odom @ odom
+    wrong = SE2(by_row.x + 0.5, by_row.y, by_row.yaw + 0.1)
+    anchor.leave()
+    anchor.follow_pose(wrong, odom, yaw_std=0.06)
+    at = anchor.T_map_odom @ odom
+    assert (at.x, at.y) == pytest.approx((wrong.x, wrong.y))
+    assert at.yaw == pytest.approx(by_row.yaw, abs=0.01)  # rad
+    anchor.follow_pose(wrong, odom, yaw_std=0.002)
+    assert (anchor.T_map_odom @ odom).yaw == pytest.approx(wrong.yaw, abs=0.005)  # rad
+
+
+def test_before_any_row_the_pose_filter_alone_tells_the_direction() -> None:
+    anchor, odom, told = anchored(), SE2(8.0, 3.0, 0.25), SE2(1.0, 2.0, 0.9)
+    anchor.follow_pose(told, odom, yaw_std=0.06)
+    assert (anchor.T_map_odom @ odom).yaw == pytest.approx(0.9)
+
+
 def test_row_end_corrects_the_place_along_the_row() -> None:
     anchor, odom = anchored(), SE2(8.0, 3.0, 0.25)
     wanted = ROW.coordinates(anchor.T_map_odom @ odom).x + 1.5

@@ -159,6 +159,24 @@ def test_wrong_heading_is_rejected_and_told(turn_deg: float) -> None:
     assert "heading is" in status.reason
 
 
+def test_the_heading_of_a_fix_that_has_just_been_won_does_not_turn_the_pose() -> None:
+    """Two antennas find their own fix seconds after the receiver found its place: until then they are degrees off."""
+
+    def under_leaves(fix: GnssFix, t: float) -> GnssFix:
+        if t < 10.0:
+            return fix
+        assert fix.heading_rad is not None
+        off = math.radians(7.0) * (1.0 if t < 42.0 else math.exp(-(t - 42.0) / 2.0))
+        floating = replace(fix, heading_rad=math.remainder(fix.heading_rad + off, 2 * math.pi))
+        return replace(moved(floating, 0.8, 0.0), quality=FixQuality.RTK_FLOAT, std_east_m=0.5, std_north_m=0.5) if (
+            t < 40.0
+        ) else floating  # fmt: skip
+
+    before = drive(14, 40.0, change=under_leaves).worst_yaw(38.0)
+    after = drive(14, 50.0, change=under_leaves).worst_yaw(40.0)
+    assert after < before + math.radians(1.0)
+
+
 def test_without_gyro_the_wheels_carry_on_with_more_doubt() -> None:
     with_gyro, without = drive(13, 20.0), drive(13, 20.0, imu=False)
     assert without.worst(5.0) < 0.25

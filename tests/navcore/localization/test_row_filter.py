@@ -65,6 +65,17 @@ def test_a_gyro_measured_at_rest_needs_no_more_of_it() -> None:
     assert row.drive(6.0, 10.0) == 0.0
 
 
+def test_a_row_along_a_hill_tells_how_far_the_robot_creeps_down() -> None:
+    """0.3 m per metre and unit of slope, on 4 deg, its left side up."""
+    row, slope, believed, error = in_a_row(), math.sin(math.radians(4.0)), 0.0, np.zeros(2)
+    for _ in range(round(60.0 / (SPEED * TICK_S))):
+        row.drive(SPEED * TICK_S, TICK_S, slope)
+        error += ((0.3 - believed) * slope * SPEED * TICK_S + error[1] * SPEED * TICK_S, 0.0)
+        error += row.look(-error, LOOK, inside=True)
+        believed += row.take_creep()
+    assert believed == pytest.approx(0.3, abs=0.1)
+
+
 def test_the_last_plants_do_not_undo_what_a_long_row_told_of_its_direction() -> None:
     """Two or three plants are left and tell 2 deg wrong, over 2 m."""
     row, turned = in_a_row(), 0.0

@@ -241,6 +241,20 @@ def test_the_row_end_is_told_by_a_camera_that_nods_if_the_imu_tells_of_it(nods_d
     assert row.end_distance == pytest.approx(5.5 - 1.8, abs=0.12)  # m
 
 
+def test_towards_its_end_a_row_runs_where_the_plants_passed_say_and_not_the_last_two() -> None:
+    """The last plant on either side stands 15 cm off."""
+    told, end, last_off = Told(), 20.0, 0.15
+    perception = RowPerception(FRONT, told, RowPerceptionParams())
+    headings = []
+    for i in range(185):
+        pose, motion = SE2(0.1 * i, 0.0, 0.0), SE2(0.1, 0.0, 0.0) if i else None
+        feet = corridor_feet(pose, end=end, start=-10.0, spacing=1.25, lines=1)
+        feet[np.isclose(feet[:, 0] + pose.x, end), 1] += last_off
+        told.objects = boxes_at(FRONT, feet)
+        headings.append(perception.process(picture(FRONT), i, CameraName.FRONT, motion=motion).row.heading)
+    assert max(abs(h) for h in headings[150:] if h is not None) < math.radians(0.8)
+
+
 def test_in_the_middle_of_a_row_there_is_no_end() -> None:
     told = Told()
     perception = RowPerception(FRONT, told, RowPerceptionParams())
