@@ -29,17 +29,19 @@ class PassedPlantsParams:
         blend: share by which a plant's place follows its newest sighting.
         std: 1-sigma of a plant about its line, with what its sightings add.
         slant: 1-sigma of the direction in which odometry carries them on, rad: the robot creeps on slopes.
+        shift: 1-sigma by which all of them may have been carried aside, m: the body leans otherwise than then.
         least: fewer passed plants say nothing: at the entrance they were seen from the side, while the robot turned.
         wrong: a plant so many 1-sigma off the line is none of it.
     """
 
     nearest: float = 0.8
     furthest: float = 5.0
-    behind: float = 14.0
+    behind: float = 10.0
     gate: float = 0.35
     blend: float = 0.3
     std: float = 0.06
     slant: float = 0.006
+    shift: float = 0.04
     least: int = 6
     wrong: float = 3.0
 
@@ -98,15 +100,15 @@ class PassedPlants:
         kept = np.abs(off) <= p.wrong * np.hypot(p.std, p.slant * passed)
         if np.count_nonzero(kept) < p.least:
             return np.zeros((4, 4)), np.zeros(4)
-        return _without_slant(H[kept], xy[kept, 1], passed[kept], p)
+        return _whatever_odometry_did(H[kept], xy[kept, 1], passed[kept], p)
 
     def _keep(self, mask: NDArray[np.bool_]) -> None:
         self._xy, self._sides, self._in_sight = self._xy[mask], self._sides[mask], self._in_sight[mask]
 
 
-def _without_slant(H: Floats, y: Floats, passed: Floats, p: PassedPlantsParams) -> tuple[Floats, Floats]:
-    """Information (4, 4) and vector (4,) of `y` = `H` z + slant * `passed`, whatever the slant is."""
-    precision = p.std**-2
-    cross, vector = precision * H.T @ passed, precision * float(passed @ y)
-    slant = precision * float(passed @ passed) + p.slant**-2
-    return precision * H.T @ H - np.outer(cross, cross) / slant, precision * H.T @ y - cross * vector / slant
+def _whatever_odometry_did(H: Floats, y: Floats, passed: Floats, p: PassedPlantsParams) -> tuple[Floats, Floats]:
+    """Information (4, 4) and vector (4,) of `y` = `H` z + slant * `passed` + shift, whatever slant and shift are."""
+    nuisance = np.column_stack((passed, np.ones(len(passed)))) / p.std
+    H, y = H / p.std, y / p.std
+    gain = H.T @ nuisance @ np.linalg.inv(nuisance.T @ nuisance + np.diag((p.slant**-2, p.shift**-2)))
+    return H.T @ H - gain @ (nuisance.T @ H), H.T @ y - gain @ (nuisance.T @ y)
