@@ -32,7 +32,7 @@ class Belief:
         moved_ns: when the wheels turned last.
         quality: of the newest fix that was used; the GNSS error states belong to it.
         slow: 1-sigma of that fix's slow error, m.
-        fixed_ns: capture time of the first of the RTK fixes in a row.
+        fixed_ns: capture time of the fix with which RTK was won or lost last; 0 if it was there from the start.
         fix_ns: capture time of the newest accepted fix.
         distance: driven since then, m.
         doubt_ns: capture time of the first of the fixes in a row that were rejected, None if the last was accepted.

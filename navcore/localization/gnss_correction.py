@@ -89,7 +89,6 @@ class GnssCorrection:
         before, b.quality, b.slow = b.quality, fix.quality, self._noise.slow(fix)
         if fix.quality is not before and FixQuality.RTK_FIXED in (fix.quality, before):
             b.forget([GNSS_EAST, GNSS_NORTH], [b.slow] * 2)
-        if fix.quality is FixQuality.RTK_FIXED and fix.quality is not before:
             b.fixed_ns = fix.stamp_ns
 
     def _position_jacobian(self, b: Belief) -> Floats:

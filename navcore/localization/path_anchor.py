@@ -125,8 +125,8 @@ class PathAnchor:
         Under leaves the filter's direction is degrees off, and mends only metres after its place.
         """
         by_row, p = (self.departed @ T_odom_base).yaw, self.params
-        row_std = p.left_heading + p.left_growth * self._driven if self._left else math.inf
-        share = 1.0 if math.isinf(row_std) else row_std**2 / (row_std**2 + yaw_std**2)
+        row_std = p.left_heading + p.left_growth * self._driven
+        share = row_std**2 / (row_std**2 + yaw_std**2) if self._left else 1.0
         yaw = by_row + share * wrap(T_map_base.yaw - by_row)
         self.follow(SE2(T_map_base.x, T_map_base.y, wrap(yaw)) @ T_odom_base.inverse())
 

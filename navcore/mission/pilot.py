@@ -83,10 +83,9 @@ class Pilot:
         driven = self._carry(at)
         for seen, T_odom_base in row_seen:
             self._see(seen, self.driving_pose(T_odom_base))
-        if self.mode is NavMode.GNSS_PATH and at.T_map_base is not None:
+        on_road, heading = self.mode is NavMode.GNSS_PATH, self.leg.line.heading_at(self.place.s)
+        if on_road and at.T_map_base is not None:
             self.anchor.follow_pose(at.T_map_base, at.T_odom_base, at.yaw_std)
-        heading = self.leg.line.heading_at(self.place.s)
-        on_road = self.mode is NavMode.GNSS_PATH
         self.pose = self.anchor.slide(
             self.driving_pose(at.T_odom_base), dt, driven, heading, self.projection.lateral, on_road
         )

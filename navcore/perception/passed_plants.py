@@ -1,7 +1,7 @@
 """The plants that the robot has passed: they go on telling where the row runs when the camera sees few or none ahead.
 
-Seen from near, a foot is known to a few centimetres, and odometry carries it on well for the length of some rows'
-spacings. Towards the end of a row they are most of what tells its direction.
+Seen from near, a foot is known to a few centimetres, and odometry carries it on well for some metres. Towards the
+end of a row they are most of what tells its direction.
 """
 
 from __future__ import annotations
@@ -58,15 +58,14 @@ class PassedPlants:
         """Another row, or pictures that do not follow each other."""
         self._xy: Floats = np.empty((0, 2))
         self._sides: Ints = np.empty(0, dtype=np.int64)
-        self._in_sight = np.empty(0, dtype=np.bool_)
 
     def move(self, motion: SE2) -> None:
         """`motion` is `T_last_now` of the driving frame."""
         back = motion.inverse()
         c, s = math.cos(back.yaw), math.sin(back.yaw)
         self._xy = self._xy @ np.array(((c, s), (-s, c))) + (back.x, back.y)
-        self._keep(self._xy[:, 0] > self._camera_x - self._params.behind)
-        self._in_sight[:] = False
+        kept = self._xy[:, 0] > self._camera_x - self._params.behind
+        self._xy, self._sides = self._xy[kept], self._sides[kept]
 
     def see(self, xy: Floats, sides: Ints) -> None:
         """Remember feet (N, 2), m, of which `sides` (N,) tells the line: +1 left, -1 right, 0 none."""
@@ -80,18 +79,16 @@ class PassedPlants:
         i = int(np.argmin(off)) if len(off) else -1
         if i >= 0 and off[i] <= self._params.gate:
             self._xy[i] += self._params.blend * (foot - self._xy[i])
-            self._in_sight[i] = True
             return
         self._xy = np.vstack((self._xy, foot))
         self._sides = np.append(self._sides, side)
-        self._in_sight = np.append(self._in_sight, True)
 
     def information(self, state: Floats) -> tuple[Floats, Floats]:
         """What those out of sight tell of (offset, heading, width, pitch): information (4, 4) and vector (4,).
 
         `state` (4,) is where the corridor is expected.
         """
-        gone = ~self._in_sight & (self._xy[:, 0] < self._camera_x + self._params.nearest)
+        gone = self._xy[:, 0] < self._camera_x + self._params.nearest
         xy, sides = self._xy[gone], self._sides[gone]
         H = np.column_stack((np.ones(len(xy)), xy[:, 0], 0.5 * sides, np.zeros(len(xy))))
         expected = H @ np.array((state[0], math.tan(state[1]), state[2], 0.0))
@@ -101,9 +98,6 @@ class PassedPlants:
         if np.count_nonzero(kept) < p.least:
             return np.zeros((4, 4)), np.zeros(4)
         return _whatever_odometry_did(H[kept], xy[kept, 1], passed[kept], p)
-
-    def _keep(self, mask: NDArray[np.bool_]) -> None:
-        self._xy, self._sides, self._in_sight = self._xy[mask], self._sides[mask], self._in_sight[mask]
 
 
 def _whatever_odometry_did(H: Floats, y: Floats, passed: Floats, p: PassedPlantsParams) -> tuple[Floats, Floats]:

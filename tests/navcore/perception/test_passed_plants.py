@@ -54,7 +54,9 @@ def test_plants_out_of_sight_tell_place_and_direction_of_the_row() -> None:
 
 def test_what_is_in_sight_does_not_count_twice() -> None:
     plants = PassedPlants(0.4, PassedPlantsParams())
-    plants.see(np.array(((2.0, 1.5), (3.0, 1.5), (2.0, -1.5))), np.array((1, 1, -1)))
+    x = np.arange(1.5, 5.0, 0.5)
+    feet = np.vstack((np.column_stack((x, 1.5 + 0 * x)), np.column_stack((x, -1.5 + 0 * x))))
+    plants.see(feet, np.repeat((1, -1), len(x)))
     more, vector = plants.information(EXPECTED)
     assert not more.any()
     assert not vector.any()
