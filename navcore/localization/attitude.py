@@ -75,12 +75,17 @@ class Attitude:
         ay = min(max((sample.ay - self._v * sample.wz) / GRAVITY, -0.7), 0.7)
         return math.asin(ay), -math.asin(ax)
 
-    def drive(self, distance: float, yaw: float) -> None:
-        """Learn the slope over a driven distance, m, at a yaw in `odom`."""
-        self._driven += abs(distance)
+    def drive(self, x: float, y: float, yaw: float) -> None:
+        """Learn the slope over a way driven by (x, y), m, at a yaw in `odom`."""
+        self._slope.move(x, y)
+        self._driven += math.hypot(x, y)
         if self._driven >= self.params.step:
             self._slope.drive(self._driven, yaw, (-self.pitch, self.roll))
             self._driven = 0.0
+
+    def see_height(self, height: float) -> None:
+        """See `GroundSlope.see_height`."""
+        self._slope.see_height(height)
 
     def see_lean(self, yaw: float, more: float, std: float) -> None:
         """A camera leans by `more` to the side (roll of `base_link`, rad) than `against_ground` told."""

@@ -2,7 +2,8 @@
 
 The land's slope stays where it is when the robot turns, the mount's turns with it: that tells them apart. Two things
 speak of their sum: over many metres a robot stands upright on the land, and a camera that sees plants on both sides
-come nearer at different rates knows how it leans against the ground they stand on.
+come nearer at different rates knows how it leans against the ground they stand on. Of the land alone the heights
+speak that GNSS tells on the way: the road along the headland climbs as the rows lean to the side.
 """
 
 from __future__ import annotations
@@ -14,6 +15,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
+
+# Before the first height, m: further from the datum's height no farm lies.
+UNKNOWN_LEVEL = 1000.0
+# Heights are taken so far apart, m.
+HEIGHT_STEP = 0.5
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -27,6 +33,9 @@ class GroundSlopeParams:
         gate: a reading of the camera further off than so many 1-sigma is not believed,
         insist: unless so many in a row say the same: then the mount has moved.
         moved_deg: 1-sigma of how far a mount that has moved is off.
+        height_std, height_length: 1-sigma of a height about the land's plane, m, by bumps and by GNSS, and the way
+            over which it lasts, m.
+        level_drift: so much the plane's level becomes unsure, m per square root of m driven.
     """
 
     land_deg: float = 1.5
@@ -37,20 +46,25 @@ class GroundSlopeParams:
     gate: float = 3.5
     insist: int = 3
     moved_deg: float = 6.0
+    height_std: float = 0.08
+    height_length: float = 4.0
+    level_drift: float = 0.01
 
 
 class GroundSlope:
-    """Kalman filter over (slope along x and y of `odom`, mount along x and y of `base_link`), rad.
+    """Kalman filter: slope along x and y of `odom`, mount along x and y of `base_link`, rad; the land's level, m.
 
-    Tilts are (forward, left): tangents of how much the ground, or the IMU, rises ahead and to the left.
+    Tilts are (forward, left): tangents of how much the ground, or the IMU, rises ahead and to the left. The level is
+    the height of the land's plane where the robot is.
     """
 
     def __init__(self, params: GroundSlopeParams) -> None:
         self.params = params
         self._land_var, mount_var = math.radians(params.land_deg) ** 2, math.radians(params.mount_deg) ** 2
-        self._state: Floats = np.zeros(4)
-        self._covariance: Floats = np.diag((self._land_var, self._land_var, mount_var, mount_var))
+        self._state: Floats = np.zeros(5)
+        self._covariance: Floats = np.diag((self._land_var, self._land_var, mount_var, mount_var, UNKNOWN_LEVEL**2))
         self._refused: list[float] = []
+        self._heights_refused, self._since_height = 0, 0.0
 
     def tilt(self, yaw: float) -> tuple[float, float]:
         """(forward, left) of an upright robot's IMU at a yaw in `odom`."""
@@ -67,6 +81,37 @@ class GroundSlope:
         self._covariance[[0, 1], [0, 1]] += (1.0 - fades**2) * self._land_var
         noise = math.radians(p.bump_deg) ** 2 * 2.0 * p.bump_length / distance
         self._update(_turned_to_body(yaw), np.asarray(tilt), np.diag((noise, noise)))
+
+    def move(self, x: float, y: float) -> None:
+        """The robot has moved by so much in `odom`, m: the land's plane is higher or lower there."""
+        step = np.eye(5)
+        step[4, 0], step[4, 1] = x, y
+        distance = math.hypot(x, y)
+        self._state = step @ self._state
+        self._covariance = step @ self._covariance @ step.T
+        self._covariance[4, 4] += self.params.level_drift**2 * distance
+        self._since_height += distance
+
+    def see_height(self, height: float) -> None:
+        """The robot stands at that height, m, by GNSS with a fix. One that is far off is a false fix, unless it
+        insists: then the level is not known any more.
+        """
+        p = self.params
+        if self._since_height < HEIGHT_STEP:
+            return
+        noise = p.height_std**2 * max(1.0, p.height_length / self._since_height)
+        off = height - float(self._state[4])
+        if abs(off) > p.gate * math.sqrt(float(self._covariance[4, 4]) + noise):
+            self._heights_refused += 1
+            if self._heights_refused >= p.insist:
+                self._forget_level()
+            return
+        self._heights_refused, self._since_height = 0, 0.0
+        self._update(np.eye(5)[4:], np.array([height]), np.array([[noise]]))
+
+    def _forget_level(self) -> None:
+        self._covariance[4, :] = self._covariance[:, 4] = 0.0
+        self._covariance[4, 4] = UNKNOWN_LEVEL**2
 
     def see_lean(self, yaw: float, more: float, std: float) -> None:
         """The camera leans by `more` to the side (roll, rad) than the IMU and this slope told, 1-sigma `std`."""
@@ -95,10 +140,10 @@ class GroundSlope:
     def _update(self, H: Floats, measured: Floats, noise: Floats) -> None:
         gain = self._covariance @ H.T @ np.linalg.inv(H @ self._covariance @ H.T + noise)
         self._state = self._state + gain @ (measured - H @ self._state)
-        self._covariance = (np.eye(4) - gain @ H) @ self._covariance
+        self._covariance = (np.eye(5) - gain @ H) @ self._covariance
 
 
 def _turned_to_body(yaw: float) -> Floats:
-    """From the state to (forward, left) in `base_link`, (2, 4)."""
+    """From the state to (forward, left) in `base_link`, (2, 5)."""
     c, s = math.cos(yaw), math.sin(yaw)
-    return np.array(((c, s, 1.0, 0.0), (-s, c, 0.0, 1.0)))
+    return np.array(((c, s, 1.0, 0.0, 0.0), (-s, c, 0.0, 1.0, 0.0)))

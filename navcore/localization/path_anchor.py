@@ -8,6 +8,7 @@ change of source never makes the robot jump: the tie that is followed slides to 
 from __future__ import annotations
 
 import math
+from copy import deepcopy
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -62,7 +63,8 @@ class PathAnchor:
     """Ties `map` to `odom` by whichever source the robot drives on. Poses are of the driving frame.
 
     `put_back` are the metres by which rows have put the robot back, less those ahead: what the wheels told too many.
-    `departed` is the tie by which the last row was left, carried on by odometry alone.
+    `departed` is the tie by which the last row was left, carried on by odometry and put right by looks back at it;
+    `behind` is how well it is known then.
     `row_heading` is the direction in `map` of the row seen last, rad: along and across it the variances are meant.
     """
 
@@ -70,7 +72,7 @@ class PathAnchor:
         self.params = params
         self.T_map_odom = T_map_odom
         self.followed = self.departed = T_map_odom
-        self.row = RowFilter(params.row)
+        self.row, self.behind = RowFilter(params.row), RowFilter(params.row)
         self._slide = PathSlide(params.slide)
         self.var_along = self.put_back = self.row_heading = 0.0
         self.slip = WheelSlip(params.slip)
@@ -111,6 +113,7 @@ class PathAnchor:
         p, d = self.params, abs(distance)
         self._driven += d
         self.var_along += p.growth_along**2 * d
+        self.behind.drive(d, dt, slope)
         turned = T_odom_now @ SE2(0.0, 0.0, self.row.drive(d, dt, slope)) @ T_odom_now.inverse()
         self.T_map_odom, self.departed = self.T_map_odom @ turned, self.departed @ turned
 
@@ -161,6 +164,20 @@ class PathAnchor:
         innovation = np.array((-offset - at.y, wrap(-heading - at.yaw)))
         across, turn = self.row.look(innovation, noise, inside=at.x > 0.0)
         self._set(row.pose(SE2(at.x, at.y + across, at.yaw + turn)), T_odom_drive)
+
+    def look_back(self) -> None:
+        """From now on the row that is being left is seen from its end."""
+        self.departed, self.behind = self.T_map_odom, deepcopy(self.row)
+        self.behind.turn_back()
+
+    def see_left(self, row: RowLine, T_odom_drive: SE2, offset: float, heading: float, noise: Floats) -> None:
+        """Lay the row that was left onto its seen centre line, and the path with it; as in `see_row`."""
+        at = row.coordinates(self.departed @ T_odom_drive)
+        innovation = np.array((-offset - at.y, wrap(-heading - at.yaw)))
+        across, turn = self.behind.look_back(innovation, noise)
+        put_right = row.pose(SE2(at.x, at.y + across, at.yaw + turn)) @ T_odom_drive.inverse()
+        self.T_map_odom = put_right @ self.departed.inverse() @ self.T_map_odom
+        self.departed = put_right
 
     def see_along(self, row: RowLine, T_odom_drive: SE2, along: float, std: float) -> None:
         """Correct the position along the row: `along` is the row coordinate x of the driving frame, m."""

@@ -24,6 +24,8 @@ class RowFilterParams:
             much as one. The last plants of a row tell its direction badly, and it is left by what they told.
         outside_share: from outside what is seen may still change with every metre: a picture never counts for less
             than that share of it.
+        end_stds: 1-sigma of where the row lies across the robot, m, and of its direction, rad, by its last plants.
+        way_back: all pictures taken back at a row within so many metres count as one, m.
         entrance_share: all that was seen from outside tells no more than a picture with so many times its variance.
     """
 
@@ -35,6 +37,8 @@ class RowFilterParams:
     same_plants: float = 1.0
     outside_share: float = 0.12
     entrance_share: float = 4.0
+    end_stds: tuple[float, float] = (0.03, 0.005)
+    way_back: float = 6.0
 
 
 class RowFilter:
@@ -96,6 +100,20 @@ class RowFilter:
         if inside:
             self._enter(noise)
             noise = noise * max(1.0, self._params.same_plants / max(self._since, 1e-6))
+        return self._correct(innovation, noise, inside)
+
+    def turn_back(self) -> None:
+        """From now on the row is seen from its end: what it is known by are its last plants, not many more."""
+        across, direction = self._params.end_stds
+        self._at_least(np.diag((across**2, direction**2)))
+        self._since = 0.0
+
+    def look_back(self, innovation: Floats, noise: Floats) -> tuple[float, float]:
+        """As `look`, back at the row that is left: all pictures show the same plants, and count as one."""
+        times = self._params.way_back / max(self._since, 1e-6)
+        return self._correct(innovation, noise * max(1.0, times), True)
+
+    def _correct(self, innovation: Floats, noise: Floats, inside: bool) -> tuple[float, float]:
         gain = self.covariance[:, :2] @ np.linalg.inv(self.covariance[:2, :2] + noise)
         self.covariance = self.covariance - gain @ self.covariance[:2, :]
         if not inside:

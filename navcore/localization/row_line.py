@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 
 from navcore.geometry.se2 import SE2
+from navcore.messages import PathSegment
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,6 +21,13 @@ class RowLine:
     def between(start: tuple[float, float], end: tuple[float, float]) -> RowLine:
         """From the end at which the row is entered to the other one."""
         return RowLine(*start, math.atan2(end[1] - start[1], end[0] - start[0]))
+
+    @staticmethod
+    def of(segment: PathSegment | None) -> RowLine | None:
+        """The row of a planned segment, None where it has none."""
+        if segment is None or segment.row_start is None or segment.row_end is None:
+            return None
+        return RowLine.between(segment.row_start, segment.row_end)
 
     def coordinates(self, pose: SE2) -> SE2:
         """Pose in the row's own frame: x along, y to the left of the line, yaw from its direction."""

@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 
 from navcore.geometry.se2 import SE2
 from navcore.messages import NavMode, PoseEstimate
-from navcore.mission.pilot import ON_CAMERA, Pilot
+from navcore.mission.mode_selector import ON_CAMERA
+from navcore.mission.pilot import Pilot
 from navcore.mission.situation import Situation
 from navcore.mission.state_machine import UNDER_WAY
 

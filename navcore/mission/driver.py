@@ -13,7 +13,8 @@ from navcore.control.stop_zones import StopZoneParams, StopZones
 from navcore.control.target_line import TargetLine, target_from_path
 from navcore.geometry.se2 import SE2
 from navcore.messages import MissionPlan, NavMode, Point, PoseEstimate
-from navcore.mission.pilot import CARRIED, ON_CAMERA, Pilot
+from navcore.mission.mode_selector import CARRIED, ON_CAMERA
+from navcore.mission.pilot import Pilot
 from navcore.mission.senses import Senses
 from navcore.vehicle import VehicleParams
 

@@ -10,6 +10,11 @@ from dataclasses import dataclass
 
 from navcore.messages import NavMode, SegmentKind
 
+# Driven on what the camera sees; along a row; by odometry, where nothing ahead says where the path lies.
+ON_CAMERA = frozenset({NavMode.ROW_ENTRY, NavMode.ROW})
+ALONG_ROW = frozenset({NavMode.ROW, NavMode.ROW_END})
+CARRIED = frozenset({NavMode.ROW_END, NavMode.HEADLAND})
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ModeSelectorParams:

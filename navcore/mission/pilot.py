@@ -11,14 +11,11 @@ from navcore.localization.row_filter import look_noise
 from navcore.localization.row_line import RowLine
 from navcore.messages import CameraName, MissionPlan, ModeSwitch, NavMode, PathSegment, RowObservation, SegmentKind
 from navcore.mission.evidence import NO_IDEA, Doubt, RowEvidence
-from navcore.mission.mode_selector import ModeFacts, select_mode, start_reason
+from navcore.mission.look_back import USUAL_WIDTH, LeftRow, LookBack
+from navcore.mission.mode_selector import ALONG_ROW, CARRIED, ON_CAMERA, ModeFacts, select_mode, start_reason
 from navcore.mission.pilot_params import PilotParams
 from navcore.mission.position import Position
 from navcore.mission.route import Leg, Place, Route, row_length
-
-ON_CAMERA = frozenset({NavMode.ROW_ENTRY, NavMode.ROW})
-ALONG_ROW = frozenset({NavMode.ROW, NavMode.ROW_END})
-CARRIED = frozenset({NavMode.ROW_END, NavMode.HEADLAND})
 
 
 class Pilot:
@@ -29,9 +26,9 @@ class Pilot:
         self.route = Route(plan)
         self.anchor = PathAnchor(T_map_base @ start.T_odom_base.inverse(), params.anchor)
         self.row = RowEvidence(params.row)
+        self.look_back = LookBack(self.anchor, params.row)
         self.carried = 0.0
-        self.arrived = False
-        self.captured = False
+        self.arrived = self.captured = False
         self._comes_from_gnss = True
         self._at = start
         self.place = Place(0, 0.0)
@@ -76,10 +73,7 @@ class Pilot:
         return self.route.driven(self.place) + self.anchor.put_back
 
     def advance(self, at: Position, row_seen: tuple[tuple[RowObservation, SE2], ...], dt: float) -> ModeSwitch | None:
-        """Take one tick; the mode switch it brought, if any.
-
-        Each row observation comes with `T_odom_base` at its capture.
-        """
+        """Take one tick; the mode switch it brought. Observations come with `T_odom_base` at their capture."""
         driven = self._carry(at)
         for seen, T_odom_base in row_seen:
             self._see(seen, self.driving_pose(T_odom_base))
@@ -93,6 +87,7 @@ class Pilot:
         self.captured = self.captured or abs(self.projection.lateral) <= self.params.capture
         self.place = Place(self.place.leg, self.projection.s)
         self._finish_leg(at)
+        self._look_out()
         return self._choose_mode(at)
 
     def start_over(self) -> None:
@@ -130,11 +125,14 @@ class Pilot:
     def _see(self, seen: RowObservation, T_odom_drive: SE2) -> None:
         """Judge what the camera saw by the row that is meant, and correct the anchor while driving on it."""
         row, segment = self.row_line(), self.row_segment()
-        if row is None or segment is None or seen.camera is not self.camera():
+        if seen.camera is not self.camera():
+            self.look_back.see(seen, T_odom_drive)
+            return
+        if row is None or segment is None:
             return
         expected = self._expected(T_odom_drive)
         doubt = Doubt(*self.anchor.departed_stds) if self.mode is NavMode.HEADLAND else NO_IDEA
-        if not self.row.judge(seen, row, expected, segment.corridor_width or 3.0, doubt):
+        if not self.row.judge(seen, row, expected, segment.corridor_width or USUAL_WIDTH, doubt):
             return
         turned_to = self.mode is NavMode.HEADLAND and self._turned_to_row(row, T_odom_drive)
         if (self.mode in ON_CAMERA or turned_to) and seen.offset is not None and seen.heading is not None:
@@ -184,6 +182,14 @@ class Pilot:
         self.pose = self.anchor.followed @ self.driving_pose(at.T_odom_base)
         self.projection = self._project(near_s=0.0)
         self.row.forget()
+        self.look_back.row = None
+
+    def _look_out(self) -> None:
+        """Ahead, or back at the row that is being left once nothing is in sight ahead."""
+        if self.mode is NavMode.ROW:
+            self.look_back.row = LeftRow.of(self.row_segment()) or self.look_back.row
+        if self.look_back.choose(self.mode, self.segment, self.sees_row):
+            self.row.forget()
 
     def _choose_mode(self, at: Position) -> ModeSwitch | None:
         before, facts = self.mode, self._facts(at)
@@ -191,7 +197,7 @@ class Pilot:
         if reason is None:
             return None
         self.mode_reason = reason
-        self._on_switch(before)
+        self._on_switch()
         seen = self.row.agreeing
         return ModeSwitch(
             stamp_ns=at.now_ns, before=before, after=self.mode, reason=reason, x=self.pose.x, y=self.pose.y,
@@ -199,7 +205,7 @@ class Pilot:
             row_offset=seen.offset if seen else None, end_distance=facts.to_end,
         )  # fmt: skip
 
-    def _on_switch(self, before: NavMode) -> None:
+    def _on_switch(self) -> None:
         if self.mode is NavMode.GNSS_PATH:
             self.anchor.leave()
             self._comes_from_gnss = True
@@ -214,10 +220,7 @@ class Pilot:
 
     def row_line(self) -> RowLine | None:
         """Centre line of the row that matters here, as drawn."""
-        segment = self.row_segment()
-        if segment is None or segment.row_start is None or segment.row_end is None:
-            return None
-        return RowLine.between(segment.row_start, segment.row_end)
+        return RowLine.of(self.row_segment())
 
     def to_start(self) -> float | None:
         """Metres ahead at which the row that matters here begins, negative inside; None where none matters."""

@@ -46,12 +46,13 @@ class Senses:
             self.gnss.add(fix)
             self.filter.add_gnss(fix)
             self.check.add_gnss(fix)
+            if fix.quality is FixQuality.RTK_FIXED and fix.height_m is not None and math.isfinite(fix.height_m):
+                self.attitude.see_height(fix.height_m)
         self.pose = self.filter.estimate(inputs.now_ns)
         if self.pose is not None:
             self.check.add_estimate(self.pose)
         before, self.T_odom_base = self.T_odom_base, self.filter.odom_at(inputs.now_ns)
-        driven = math.hypot(self.T_odom_base.x - before.x, self.T_odom_base.y - before.y)
-        self.attitude.drive(driven, self.T_odom_base.yaw)
+        self.attitude.drive(self.T_odom_base.x - before.x, self.T_odom_base.y - before.y, self.T_odom_base.yaw)
         for row in inputs.rows:
             self._take_lean(row)
 

@@ -8,7 +8,8 @@ from navcore.messages import LinkLossPolicy, NavMode, RunState, SegmentKind
 from navcore.mission.driver import Driving
 from navcore.mission.event_facts import EventFacts
 from navcore.mission.evidence import NS
-from navcore.mission.pilot import CARRIED, Pilot
+from navcore.mission.mode_selector import CARRIED
+from navcore.mission.pilot import Pilot
 from navcore.mission.senses import Senses
 
 # An entrance is near within this distance, m: no room is left to get in line before it.

@@ -28,17 +28,20 @@ class CorridorFitParams:
         foot_u_px, foot_v_px: 1-sigma of a box's foot at 640 px image width, scaled with the width; > 0.
         plant_std: 1-sigma of the plants about their line, m.
         curve: extra scatter per squared metre of distance, 1/m: rows are not quite straight.
-        max_range: feet further away than this are not used, m.
-        max_points: the nearest so many are used; bounds the time of a fit.
+        max_range: feet further away than this do not help to find a corridor, m; `far_range`: nor to follow one. The
+            first two plants tell a row's direction badly, and before its entrance they are the nearest.
+        max_points, far_points: the nearest so many are used; bounds the time of a fit.
         lines, tries: best single lines that are combined, and corridors that are refined, when there is no track.
     """
 
     foot_u_px: float = 1.5
     foot_v_px: float = 2.0
     plant_std: float = 0.06
-    curve: float = 0.001
+    curve: float = 0.0005
     max_range: float = 14.0
+    far_range: float = 24.0
     max_points: int = 40
+    far_points: int = 60
     lines: int = 10
     tries: int = 4
 
@@ -80,14 +83,14 @@ class CorridorFit:
         """The best corridor for feet (N, 2), pixels, over all whose offset and heading lie within `reach` (m, rad)
         of the prior's.
         """
-        rays, used = self._rays(feet)
+        rays, used = self._rays(feet, self._params.max_range, self._params.max_points)
         p, rays_used = self._params, rays[used]
         start, _ = kernels.acquire(rays_used, mean, information, self._mount, self._noise, p.lines, p.tries, reach)
         return self._refine(start, rays, used, mean, information, 1.0)
 
     def follow(self, feet: Floats, mean: Floats, information: Floats) -> Corridor:
         """The corridor near the predicted one."""
-        rays, used = self._rays(feet)
+        rays, used = self._rays(feet, self._params.far_range, self._params.far_points)
         return self._refine(mean, rays, used, mean, information, 2.0)
 
     def _refine(
@@ -99,15 +102,15 @@ class CorridorFit:
         covariance = np.asarray(np.linalg.inv(after), dtype=np.float64)
         return Corridor(state=z, covariance=covariance, sides=sides, xy=self._on_ground(rays, float(z[3])))
 
-    def _rays(self, feet: Floats) -> tuple[Floats, Ints]:
+    def _rays(self, feet: Floats, furthest: float, most: int) -> tuple[Floats, Ints]:
         """Rays (N, 2) as (s, t), and the indices of the nearest of those that come down within range."""
         c = self._camera
         uv = np.asarray(feet, dtype=np.float64).reshape(-1, 2)
         optical = np.column_stack(((uv[:, 0] - c.cx) / c.fx, (uv[:, 1] - c.cy) / c.fy, np.ones(len(uv))))
         d = optical @ self._R_driving_camera.T
         rays = np.column_stack((d[:, 1], -d[:, 2])) / np.maximum(d[:, :1], 1e-3)
-        in_range = np.flatnonzero((d[:, 0] > 1e-3) & (rays[:, 1] > c.z / self._params.max_range))
-        nearest = np.argsort(-rays[in_range, 1], kind="stable")[: self._params.max_points]
+        in_range = np.flatnonzero((d[:, 0] > 1e-3) & (rays[:, 1] > c.z / furthest))
+        nearest = np.argsort(-rays[in_range, 1], kind="stable")[:most]
         return rays, in_range[nearest]
 
     def _on_ground(self, rays: Floats, pitch: float) -> Floats:

@@ -81,7 +81,7 @@ class CorridorTrackerParams:
     wrong_width: float = 0.22
     max_prior_std: float = 0.3
     floor_offset: float = 0.02
-    floor_heading_deg: float = 0.4
+    floor_heading_deg: float = 0.25
 
 
 class Width(NamedTuple):

@@ -151,10 +151,12 @@ class CorridorTracker:
         p = self._params
         floor = np.diag((p.floor_offset**2, math.radians(p.floor_heading_deg) ** 2))
         covariance = corridor.covariance[:2, :2] + floor
+        told = corridor.x <= p.fit.max_range  # what stands beyond it says nothing sure of the row's end
         return GroundRow(
             offset=float(corridor.state[0]), heading=float(corridor.state[1]), width=float(corridor.state[2]),
-            covariance=covariance, pitch=float(corridor.state[3]), left_x=corridor.x[corridor.sides > 0],
-            right_x=corridor.x[corridor.sides < 0], quality=_quality(corridor, math.sqrt(covariance[0, 0]), p),
+            covariance=covariance, pitch=float(corridor.state[3]),
+            left_x=corridor.x[told & (corridor.sides > 0)], right_x=corridor.x[told & (corridor.sides < 0)],
+            quality=_quality(corridor, math.sqrt(covariance[0, 0]), p),
         )  # fmt: skip
 
 

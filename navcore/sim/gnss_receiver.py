@@ -55,7 +55,7 @@ class GnssReceiverParams:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AntennaState:
-    """Truth of the main antenna in `map`, m and m/s, and the robot's yaw."""
+    """Truth of the main antenna in `map`, m and m/s, and the robot's yaw; `z` is above the `ground` there, m."""
 
     x: float
     y: float
@@ -63,6 +63,7 @@ class AntennaState:
     vx: float
     vy: float
     yaw: float
+    ground: float = 0.0
 
 
 class GnssReceiver:
@@ -120,7 +121,8 @@ class GnssReceiver:
 
     def _describe(self, solution: RtkSolution, elapsed_s: float, antenna: AntennaState) -> ReceiverEpoch:
         east, north, up = solution.error_m
-        lat, lon, height = self._frame.to_geodetic(antenna.x + east, antenna.y + north, antenna.z + up)
+        above = antenna.ground + antenna.z
+        lat, lon, height = self._frame.to_geodetic(antenna.x + east, antenna.y + north, above + up)
         noise = {FixQuality.RTK_FIXED: 0.02, FixQuality.RTK_FLOAT: 0.05}.get(solution.quality, 0.15)
         vx, vy = np.array((antenna.vx, antenna.vy)) + noise * self._rng.standard_normal(2)
         corrected = solution.quality in (FixQuality.RTK_FIXED, FixQuality.RTK_FLOAT)

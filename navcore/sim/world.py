@@ -198,7 +198,13 @@ class World:
         vx = d.v * c - d.lateral_v * s - d.omega * float(lever[1])
         vy = d.v * s + d.lateral_v * c + d.omega * float(lever[0])
         return AntennaState(
-            x=d.x + float(lever[0]), y=d.y + float(lever[1]), z=float(lever[2]), vx=vx, vy=vy, yaw=d.yaw
+            x=d.x + float(lever[0]),
+            y=d.y + float(lever[1]),
+            z=float(lever[2]),
+            vx=vx,
+            vy=vy,
+            yaw=d.yaw,
+            ground=self._terrain.height(d.x, d.y),
         )
 
     def _output(self, now_ns: int) -> WorldOutput:

@@ -5,10 +5,12 @@ from __future__ import annotations
 import statistics
 from collections.abc import Callable
 from dataclasses import replace
+from itertools import groupby
 
 from navcore.maps.mission import RowExit
 from navcore.maps.site_map import SiteMap
-from navcore.messages import NavMode, RunState
+from navcore.messages import CameraName, NavMode, RunState
+from navcore.mission.mode_selector import CARRIED
 from navcore.planning.mission_planner import mission_for_row
 from navcore.sim.world import WorldParams
 from tests.missions.conftest import Drive, new_drive, off_line
@@ -25,6 +27,28 @@ def test_robot_changes_rows_over_the_headland_and_comes_home(park: Callable[[int
     modes = [s.after for s in drive.switches]
     assert modes.count(NavMode.ROW) == 2
     assert NavMode.HEADLAND in modes
+
+
+def test_on_the_way_out_the_robot_looks_back_and_before_the_next_row_ahead(
+    park: Callable[[int], Drive], farm: SiteMap
+) -> None:
+    drive = park(3)
+    drive.start(farm, mission_for_row(farm, "r1", RowExit.NEXT_ROW))
+    drive.until_mode(NavMode.ROW)
+    drive.until_mode(NavMode.ROW_END)
+    drive.until(lambda tick: tick.decision.status.mode is NavMode.ROW, seconds=200)
+    looks = [t.decision.camera for t in drive.ticks if t.decision.status.mode in CARRIED and t.decision.camera]
+    cameras = [camera for camera, _ in groupby(look.camera for look in looks)]
+    assert cameras == [CameraName.FRONT, CameraName.REAR, CameraName.FRONT]
+    assert len(_agreeing_looks_back(drive)) > 20
+    assert all(abs(off) < 0.15 for off in _agreeing_looks_back(drive))  # m
+
+
+def _agreeing_looks_back(drive: Drive) -> list[float]:
+    """By how much each valid view of the rear camera is off the true row that is left, m."""
+    row = next(row for row in drive.lockstep.world.site.rows if row.id == "r1")
+    views = [(tick, v.row) for tick in drive.ticks for v in tick.views if v.camera is CameraName.REAR]
+    return [off_line(tick, row.start, row.end) - seen.offset for tick, seen in views if seen.offset is not None]
 
 
 def test_robot_changes_rows_while_gnss_has_no_fix_at_all(farm: SiteMap) -> None:

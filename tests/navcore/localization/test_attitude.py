@@ -7,6 +7,7 @@ import math
 import pytest
 
 from navcore.localization.attitude import GRAVITY, Attitude, AttitudeParams
+from navcore.localization.ground_slope import GroundSlope, GroundSlopeParams
 from navcore.messages import ImuSample
 
 MS10 = 10_000_000
@@ -50,7 +51,7 @@ def drive(attitude: Attitude, first: int, metres: float, roll: float, yaw: float
     last = first + int(metres / 0.02)
     for k in range(first, last):
         attitude.add_imu(sample(k, roll=roll))
-        attitude.drive(0.02, yaw=yaw)
+        attitude.drive(0.02 * math.cos(yaw), 0.02 * math.sin(yaw), yaw=yaw)
     return last
 
 
@@ -85,6 +86,35 @@ def test_driven_both_ways_a_crooked_imu_is_told_from_a_slope() -> None:
     assert attitude.against_ground(math.pi)[0] == pytest.approx(0.0, abs=0.003)  # rad
     turn(attitude, k, crooked + slope)
     assert attitude.against_ground(0.0)[0] == pytest.approx(0.0, abs=0.006)  # rad; 0.02 if nobody had noticed
+
+
+def road_along_the_headland(*, heights: bool) -> float:
+    """The lean found at the row's entrance, rad; a road that climbs by 2 % along y, an IMU mounted 0.02 nose up."""
+    attitude, slope, crooked = Attitude(AttitudeParams()), 0.02, 0.02
+    for k in range(1, 3000):
+        attitude.add_imu(sample(k, pitch=-slope - crooked))
+        attitude.drive(0.0, 0.02, yaw=math.pi / 2)
+        if heights:
+            attitude.see_height(250.0 + slope * 0.02 * k)
+    turn(attitude, 3000, roll=slope)
+    return attitude.against_ground(0.0)[0]
+
+
+def test_the_road_along_the_headland_tells_by_its_heights_how_the_rows_lean() -> None:
+    assert road_along_the_headland(heights=True) == pytest.approx(0.0, abs=0.0015)  # rad
+    assert abs(road_along_the_headland(heights=False)) > 0.004  # rad
+
+
+def test_a_height_by_a_false_fix_is_not_believed_until_it_insists() -> None:
+    slope = GroundSlope(GroundSlopeParams())
+    for metres in range(30):
+        slope.move(1.0, 0.0)
+        slope.see_height(10.0 + (2.0 if metres == 20 else 0.0))
+    assert slope.tilt(0.0)[0] == pytest.approx(0.0, abs=0.003)
+    for _ in range(30):
+        slope.move(1.0, 0.0)
+        slope.see_height(12.0)
+    assert slope.tilt(0.0)[0] == pytest.approx(0.0, abs=0.003)
 
 
 def test_a_rut_along_the_whole_row_is_seen_by_the_camera() -> None:

@@ -64,6 +64,32 @@ def test_before_any_row_the_pose_filter_alone_tells_the_direction() -> None:
     assert (anchor.T_map_odom @ odom).yaw == pytest.approx(0.9)
 
 
+def test_looking_back_at_the_row_puts_right_what_odometry_did_on_the_way_out() -> None:
+    anchor, odom = anchored(), SE2(8.0, 3.0, 0.25)
+    for _ in range(50):
+        drive(anchor, 0.1)
+        anchor.see_row(ROW, odom, offset=0.0, heading=0.0, noise=look_noise(0.03, 0.01, 0.0))
+    anchor.look_back()
+    strayed = odom @ SE2(0.0, 0.2, 0.0)
+    for _ in range(60):
+        drive(anchor, 0.1)
+        anchor.see_left(ROW, strayed, offset=0.0, heading=0.0, noise=look_noise(0.03, 0.01, 0.0))
+    for tie in (anchor.departed, anchor.T_map_odom):
+        assert abs(ROW.coordinates(tie @ strayed).y) < 0.1  # m; 0.2 without a look
+
+
+def test_a_hundred_looks_back_at_the_same_plants_do_not_undo_what_the_row_told() -> None:
+    anchor, odom = anchored(), SE2(8.0, 3.0, 0.25)
+    for _ in range(50):
+        drive(anchor, 0.1)
+        anchor.see_row(ROW, odom, offset=0.0, heading=0.0, noise=look_noise(0.03, 0.01, 0.0))
+    anchor.look_back()
+    for _ in range(100):
+        drive(anchor, 0.03)
+        anchor.see_left(ROW, odom, offset=0.14, heading=0.0, noise=look_noise(0.035, 0.006, 0.0))
+    assert 0.0 < -ROW.coordinates(anchor.T_map_odom @ odom).y < 0.07  # m
+
+
 def test_row_end_corrects_the_place_along_the_row() -> None:
     anchor, odom = anchored(), SE2(8.0, 3.0, 0.25)
     wanted = ROW.coordinates(anchor.T_map_odom @ odom).x + 1.5

@@ -144,6 +144,22 @@ def test_from_outside_the_row_that_is_meant_is_seen_and_not_its_neighbour() -> N
         assert row.offset == pytest.approx(true_offset, abs=0.15)  # m
 
 
+def test_before_an_entrance_two_plants_out_of_line_do_not_tell_the_direction() -> None:
+    """The first ones on either side stand 0.15 m to the right; the robot follows the row for a second."""
+    told, off = Told(), []
+    perception = RowPerception(FRONT, told, RowPerceptionParams())
+    for k in range(10):
+        pose = SE2(-3.0 + 0.05 * k, 0.0, 0.0)
+        feet = corridor_feet(SE2(), start=0.0, lines=1)
+        feet[feet[:, 0] < 1.0, 1] -= 0.15
+        told.objects = boxes_at(FRONT, pose.inverse().apply(feet), reach=24.0)
+        prior = RowPrior(offset=0.0, heading=0.0, std=0.15, width=3.0)
+        motion = SE2(0.05, 0.0, 0.0) if k else None
+        row = perception.process(picture(FRONT), k, CameraName.FRONT, prior=prior, motion=motion).row
+        off.append(math.degrees(row.heading or math.inf))
+    assert abs(off[-1]) < 0.35  # deg
+
+
 def test_a_line_across_the_lattice_is_no_row() -> None:
     """Plants stand in line crosswise too; where the row runs is known well enough to tell."""
     pose = SE2(-5.0, 0.5, math.radians(12.0))

@@ -101,6 +101,14 @@ def test_walls_of_leaves_cost_less_than_a_roof(farm: SiteMap, leafy_roof: Survey
     assert walls.fixed_share(10.0, 64.0) > 0.8 > leafy_roof.fixed_share(10.0, 64.0)
 
 
+def test_on_higher_ground_the_antenna_is_higher(farm: SiteMap) -> None:
+    gnss, heights = receiver(farm, OrchardParams(), 0), []
+    for k in range(1, 200):
+        state = AntennaState(x=0.0, y=-20.0, z=1.2, vx=0.0, vy=0.0, yaw=0.0, ground=3.0 if k >= 100 else 0.0)
+        heights.append(gnss.epoch(k * PERIOD_NS, k * 0.2, state).height_m)
+    assert np.mean(heights[100:]) - np.mean(heights[50:99]) == pytest.approx(3.0, abs=0.05)  # m
+
+
 def test_without_corrections_the_fix_ends(farm: SiteMap) -> None:
     survey = drive(farm, Trellis.ROOF, Season.DORMANT, correction_outages_s=((10.0, 200.0),))
     assert survey.epochs[40].quality is FixQuality.RTK_FIXED
