@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import argparse
 import logging
-import os
 import signal
 import time
 from pathlib import Path
@@ -21,6 +20,7 @@ from backend.scene_view import SceneView
 from backend.supervisor import SupervisorClient
 from navcore.errors import InputError
 from navcore.messages import CameraView, GnssFix, MissionPlan, NavStatus, RowObservation, SimTruth
+from navcore.promptness import give_way
 from navcore.topics import CAMERA_VIEW, GNSS_FIX, NAV_PLAN, NAV_STATUS, ROW_OBSERVATION, SIM_TRUTH
 from navcore.transport.codec import decode
 from navcore.transport.endpoints import Endpoints
@@ -51,7 +51,7 @@ def main() -> None:
     ended: list[int] = []
     for number in (signal.SIGTERM, signal.SIGINT):
         signal.signal(number, lambda caught, _: ended.append(caught))
-    os.nice(5)
+    give_way(5)
     logging.getLogger("websockets").setLevel(logging.CRITICAL)  # the station looks in without a word: no failure
     endpoints = Endpoints(arguments.bus)
     supervisor = SupervisorClient(endpoints, arguments.data / "robot")

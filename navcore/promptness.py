@@ -78,4 +78,17 @@ def stand_back() -> None:
     """Work only while nobody else wants to: for imports and exports, which may take as long as they like."""
     with contextlib.suppress(AttributeError, OSError):
         os.sched_setscheduler(0, os.SCHED_IDLE, os.sched_param(0))
-    os.nice(10)
+    give_way(19)
+
+
+def give_way(niceness: int) -> None:
+    """Let others go first: the nicer, 0 to 19, the sooner.
+
+    Where Linux shares the processor out by session first (autogroup; sched(7)), a process is nice only to its own
+    session, and even an idle one takes as much as all of another session: so it gets one of its own, a nice one.
+    """
+    os.nice(niceness)
+    with contextlib.suppress(OSError):  # it has one already
+        os.setsid()
+    with contextlib.suppress(OSError):  # a system that does not
+        Path("/proc/self/autogroup").write_text(str(niceness), encoding="ascii")

@@ -48,6 +48,28 @@ def test_work_in_the_background_is_idle_by_the_kernels_own_word() -> None:
     assert int(told) == os.SCHED_IDLE
 
 
+BUSY = """
+import os, sys, time
+from navcore.promptness import stand_back
+os.sched_setaffinity(0, {int(sys.argv[1])})
+if sys.argv[2] == "background": stand_back()
+end = time.monotonic() + 2.0
+while time.monotonic() < end: pass
+print(time.process_time())
+"""
+
+
+def test_work_in_the_background_leaves_the_processor_to_those_of_other_sessions() -> None:
+    """Both on one processor, each in its own session as the station's processes are; half and half if it did not."""
+    processor = str(min(os.sched_getaffinity(0)))
+    both = [
+        subprocess.Popen([sys.executable, "-c", BUSY, processor, how], stdout=subprocess.PIPE, start_new_session=True)
+        for how in ("foreground", "background")
+    ]
+    foreground, background = (float(process.communicate()[0]) for process in both)
+    assert foreground > 3 * background
+
+
 def test_the_kernel_takes_the_short_slice() -> None:
     release = tuple(int(part) for part in os.uname().release.split(".")[:2])
     if platform.system() != "Linux" or release < (6, 12) or platform.machine() not in GETATTR:
