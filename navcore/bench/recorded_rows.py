@@ -71,6 +71,7 @@ class RecordedFrame:
     Attributes:
         left, right: the plants' lines in the image.
         offset, heading: of the centre line in the driving frame.
+        width: of the corridor, m. pitch: how much further down than mounted the camera looked, rad.
         to_end: distance ahead of the driving frame's origin to the last plant, m.
         motion: of the driving frame since the last picture, with odometry's error; None for the first.
     """
@@ -80,6 +81,8 @@ class RecordedFrame:
     right: Line2
     offset: float
     heading: float
+    width: float
+    pitch: float
     to_end: float
     motion: SE2 | None
 
@@ -91,9 +94,10 @@ def record_rows(camera: PinholeCamera, params: RecordedRowsParams, rng: np.rando
     hidden = _hidden_sides(params, rng)
     frames = []
     for i, pose in enumerate(poses):
-        tilted = replace(camera, pitch=camera.pitch + math.radians(rng.normal(0.0, params.pitch_deg)))
+        pitch = math.radians(rng.normal(0.0, params.pitch_deg))
+        tilted = replace(camera, pitch=camera.pitch + pitch)
         motion = _odometry(poses[i - 1].inverse() @ pose, rng) if i else None
-        frames.append(_frame(tilted, pose, plants, hidden[i], motion, params, rng))
+        frames.append(replace(_frame(tilted, pose, plants, hidden[i], motion, params, rng), pitch=pitch))
     return frames
 
 
@@ -134,8 +138,9 @@ def _frame(
     left, right = (image_line(camera, offset=offset + s * p.width / 2, heading=heading) for s in (1, -1))
     to_end = float(plants[:, 0].max()) - pose.x
     return RecordedFrame(
-        objects=tuple(objects), left=left, right=right, offset=offset, heading=heading, to_end=to_end, motion=motion
-    )
+        objects=tuple(objects), left=left, right=right, offset=offset, heading=heading, width=p.width, pitch=0.0,
+        to_end=to_end, motion=motion,
+    )  # fmt: skip
 
 
 def _boxes(

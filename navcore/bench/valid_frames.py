@@ -1,4 +1,4 @@
-"""Paper A's measure of a row fit: the share of valid frames (3.1.3), with Wilson intervals."""
+"""Row fits on recorded drives: paper A's share of valid frames (3.1.3), and a stricter one against the truth."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from navcore.bench.recorded_rows import RecordedFrame, RecordedRowsParams, record_rows
 from navcore.geometry.angles import difference
@@ -13,41 +14,60 @@ from navcore.geometry.line2 import Line2
 from navcore.geometry.pinhole import PinholeCamera
 from navcore.perception.corner_points import CornerPoints, corner_points
 from navcore.perception.geometric_filter import GeometricFilterParams, geometric_filter
+from navcore.perception.image_lines import image_line
 from navcore.perception.row_lines import RowCue, RowLines
 from navcore.perception.row_perception import RowMethod, RowPerceptionParams, row_line_fitter
 
 # The published filter, tuned to our camera: beyond 5 m a corridor of 3 m fills the middle of the picture.
 PUBLISHED_FILTER = GeometricFilterParams(k1=0.28, k2=0.72, k3=0.0, k4=1.0, k5=0.57)
+# The last metres of a row, in which less and less of it is in sight.
+LAST_M = 5.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ValidRule:
     """Attributes:
     max_angle_deg: between each fitted line and its reference line.
-    max_distance_px: mean distance of a side's candidate points from its line, at 1280 px image width.
+    max_distance_px: mean distance of a side's points from its line, at 1280 px image width.
+    ahead: distances before the driving frame's origin of the true ground points, m.
     """
 
     max_angle_deg: float = 5.0
     max_distance_px: float = 15.0
+    ahead: tuple[float, ...] = (3.5, 4.0, 5.0, 6.0, 7.0, 8.0)
+
+    def at_width(self, width_px: int) -> ValidRule:
+        """The same for pictures of that width."""
+        return replace(self, max_distance_px=self.max_distance_px * width_px / 1280)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ValidRate:
-    """Share of valid frames of one method, with its Wilson 95 % interval."""
+@dataclass(slots=True)
+class FrameCounts:
+    """Of one method; every frame inside the row counts, and one without a line is not valid.
 
-    method: RowMethod
-    valid: int
-    frames: int
+    Attributes:
+        valid: by the paper's rule: direction, and the candidate points near the lines.
+        true: direction, and the true ground points near the lines.
+        abstained: no line on one of the sides.
+    """
 
-    @property
-    def rate(self) -> float:
-        """0 to 1."""
-        return self.valid / self.frames
+    frames: int = 0
+    valid: int = 0
+    true: int = 0
+    abstained: int = 0
 
-    @property
-    def interval(self) -> tuple[float, float]:
-        """Lower and upper bound."""
-        return wilson(self.valid, self.frames)
+    def add(self, *, valid: bool, true: bool, abstained: bool) -> None:
+        """One frame."""
+        self.frames, self.valid, self.true = self.frames + 1, self.valid + valid, self.true + true
+        self.abstained += abstained
+
+
+@dataclass(frozen=True, slots=True)
+class MethodCounts:
+    """Frames further than `LAST_M` from the row's end, and those after it."""
+
+    row: FrameCounts
+    last: FrameCounts
 
 
 def wilson(successes: int, trials: int, z: float = 1.96) -> tuple[float, float]:
@@ -59,21 +79,26 @@ def wilson(successes: int, trials: int, z: float = 1.96) -> tuple[float, float]:
     return max(0.0, (middle - half) / (1 + z * z / n)), min(1.0, (middle + half) / (1 + z * z / n))
 
 
-def valid_rate(
+def count_frames(
     method: RowMethod, camera: PinholeCamera, *, drives: int, seed: int,
     rows: RecordedRowsParams = RecordedRowsParams(), rule: ValidRule = ValidRule(),
-) -> ValidRate:  # fmt: skip
-    """Valid frames of one method over `drives` recorded drives, the same for every method of that seed."""
+) -> MethodCounts:  # fmt: skip
+    """One method over `drives` recorded drives, the same for every method of that seed."""
     params = RowPerceptionParams(method=method, filter=PUBLISHED_FILTER)
-    valid = frames = 0
+    counts, limit = MethodCounts(FrameCounts(), FrameCounts()), rule.at_width(camera.width_px)
     for drive in range(drives):
         fitter = row_line_fitter(camera, params)
         for frame in record_rows(camera, rows, np.random.default_rng((seed, drive))):
+            if frame.to_end <= 0.0:
+                break
             corners = candidates(frame, camera, params)
             lines = fitter.fit(corners, RowCue(motion=frame.motion))
-            valid += is_valid(lines, corners, frame, camera, rule)
-            frames += 1
-    return ValidRate(method=method, valid=valid, frames=frames)
+            part = counts.row if frame.to_end > LAST_M else counts.last
+            part.add(
+                valid=is_valid(lines, corners, frame, limit), true=is_true(lines, frame, camera, limit),
+                abstained=lines.left is None or lines.right is None,
+            )  # fmt: skip
+    return counts
 
 
 def candidates(frame: RecordedFrame, camera: PinholeCamera, params: RowPerceptionParams) -> CornerPoints:
@@ -85,18 +110,29 @@ def candidates(frame: RecordedFrame, camera: PinholeCamera, params: RowPerceptio
     return corners.only(mask)
 
 
-def is_valid(
-    lines: RowLines, corners: CornerPoints, frame: RecordedFrame, camera: PinholeCamera, rule: ValidRule
-) -> bool:
+def is_valid(lines: RowLines, corners: CornerPoints, frame: RecordedFrame, limit: ValidRule) -> bool:
     """Paper A's rule: both lines near their reference in direction, and their candidate points near the lines."""
-    limit_px = rule.max_distance_px * camera.width_px / 1280
-    limit = replace(rule, max_distance_px=limit_px)
-    left = _side_valid(lines.left, frame.left, corners.only(corners.left), limit)
-    return left and _side_valid(lines.right, frame.right, corners.only(~corners.left), limit)
+    left = _side_valid(lines.left, frame.left, corners.points[corners.left], limit)
+    return left and _side_valid(lines.right, frame.right, corners.points[~corners.left], limit)
 
 
-def _side_valid(line: Line2 | None, reference: Line2, corners: CornerPoints, limit: ValidRule) -> bool:
+def is_true(lines: RowLines, frame: RecordedFrame, camera: PinholeCamera, limit: ValidRule) -> bool:
+    """Both lines run where the plants' true lines do in this picture, whatever was detected."""
+    tilted = replace(camera, pitch=camera.pitch + frame.pitch)
+    return _side_true(lines.left, frame, 1.0, tilted, limit) and _side_true(lines.right, frame, -1.0, tilted, limit)
+
+
+def _side_true(
+    line: Line2 | None, frame: RecordedFrame, side: float, camera: PinholeCamera, limit: ValidRule
+) -> bool:
+    x, aside = np.asarray(limit.ahead), frame.offset + side * frame.width / 2
+    y = aside / math.cos(frame.heading) + x * math.tan(frame.heading)
+    points = camera.project(np.column_stack((x, y, np.zeros(len(x)))))
+    return _side_valid(line, image_line(camera, offset=aside, heading=frame.heading), points, limit)
+
+
+def _side_valid(line: Line2 | None, reference: Line2, points: NDArray[np.float64], limit: ValidRule) -> bool:
     if line is None or abs(difference(line.heading, reference.heading)) > math.radians(limit.max_angle_deg):
         return False
-    distances = np.abs(line.distances(corners.points))
+    distances = np.abs(line.distances(points))
     return bool(len(distances) == 0 or distances.mean() < limit.max_distance_px)

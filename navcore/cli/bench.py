@@ -113,6 +113,21 @@ def bench_detector(
     typer.echo(_report(figures, *made) if as_json else _lines(figures, *made))
 
 
+@bench_app.command("rows")
+def bench_rows(
+    quick: Annotated[bool, typer.Option("--quick", help="A fifth of the frames: a minute or two.")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="A JSON list, one row a figure.")] = False,
+) -> None:
+    """Row fits as published and ours on the same frames: in rows, near their ends, and where there is none."""
+    from navcore.bench.provenance import commit, machine
+    from navcore.bench.rows import QUICK, RowsBenchParams, run_bench
+    from navcore.bench.rows_figures import rows_figures
+
+    result = run_bench(QUICK if quick else RowsBenchParams(), lambda line: typer.echo(line, err=True))
+    figures, made = rows_figures(result), (commit(), machine())
+    typer.echo(_report(figures, *made) if as_json else _lines(figures, *made))
+
+
 def _measure_loop(params: LoopParams, as_json: bool) -> None:
     import tempfile
     from contextlib import closing

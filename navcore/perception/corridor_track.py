@@ -35,6 +35,9 @@ class CorridorTrackerParams:
         one_side_objects: so many on one side start a track where a `RowPrior` is given, the other side unseen.
         sure_std, sure_objects: so many start one where the prior is as certain as that, m: the last plants of a row,
             or those between two gaps.
+        alone_side, alone_objects, alone_span: where no row is expected so many on each side, so many in all, and each
+            side over so many metres make one: two trunks and a false box stand in line everywhere.
+        alone_share: and that share of the near objects must stand on its lines.
         max_offset_std, max_heading_std_deg: a row less certain than that is not shown.
         carry, carry_pictures: so far a row is carried without any evidence, m, and for so many pictures: one that
             stands does not see by remembering.
@@ -68,6 +71,10 @@ class CorridorTrackerParams:
     one_side_objects: int = 3
     sure_std: float = 0.2
     sure_objects: int = 2
+    alone_side: int = 2
+    alone_objects: int = 7
+    alone_span: float = 1.5
+    alone_share: float = 0.6
     max_offset_std: float = 0.22
     max_heading_std_deg: float = 4.0
     carry: float = 1.0

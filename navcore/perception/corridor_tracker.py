@@ -27,6 +27,9 @@ from navcore.perception.row_lines import GroundRow, RowCue, RowLines, RowPrior
 
 Floats = NDArray[np.float64]
 
+# What stands nearer is seen nearly always, m.
+NEAR_M = 8.0
+
 
 class CorridorTracker:
     """Follows one corridor; starts anew where the motion between two pictures is not known."""
@@ -62,7 +65,7 @@ class CorridorTracker:
     def _follow(self, track: Track, corners: CornerPoints, told: Width) -> RowLines:
         corridor = self._fit.follow(corners.feet, *self._with_passed(track))
         seen = int(np.count_nonzero(corridor.sides))
-        near = int(np.count_nonzero(np.nan_to_num(corridor.x, nan=99.0) < 8.0))
+        near = int(np.count_nonzero(np.nan_to_num(corridor.x, nan=np.inf) < NEAR_M))
         track.doubts = track.doubts + 1 if near >= 4 and seen < self._params.lost_share * near else 0
         if seen:
             track.unseen, track.pictures = 0.0, 0
@@ -108,15 +111,24 @@ class CorridorTracker:
     def _too_little(self, corridor: Corridor, prior: RowPrior | None, objects: int) -> str:
         """Why a corridor has too little evidence to begin with, empty if it has enough."""
         left, right = int(np.sum(corridor.sides > 0)), int(np.sum(corridor.sides < 0))
+        if prior is None and not self._row_by_itself(corridor):
+            return _too_few(objects, self._params.alone_objects)
         if min(left, right) >= 1 and left + right >= self._params.min_objects:
             return ""
         if prior is not None and prior.width is not None and max(left, right) >= self._params.one_side_objects:
             return ""
         if prior is not None and prior.std <= self._params.sure_std and left + right >= self._params.sure_objects:
             return ""
-        if objects < self._params.min_objects:
-            return f"only {objects} trunk{'s' if objects > 1 else ''} or posts in sight"
-        return "the trunks and posts in sight do not form a row"
+        return _too_few(objects, self._params.min_objects)
+
+    def _row_by_itself(self, corridor: Corridor) -> bool:
+        """Whether what stands there is a row although none is expected."""
+        p, x = self._params, np.nan_to_num(corridor.x, nan=np.inf)
+        lines = [x[corridor.sides == side] for side in (1, -1)]
+        enough = sum(map(len, lines)) >= p.alone_objects and min(map(len, lines)) >= p.alone_side
+        near = x < NEAR_M
+        on_lines = np.count_nonzero(corridor.sides[near]) >= p.alone_share * np.count_nonzero(near)
+        return enough and bool(on_lines) and all(np.ptp(line) >= p.alone_span for line in lines)
 
     def _doubt(self, track: Track, corridor: Corridor, objects: int, told: Width) -> str:
         """Why a corridor is not shown, empty if it is."""
@@ -158,6 +170,12 @@ class CorridorTracker:
             left_x=corridor.x[told & (corridor.sides > 0)], right_x=corridor.x[told & (corridor.sides < 0)],
             quality=_quality(corridor, math.sqrt(covariance[0, 0]), p),
         )  # fmt: skip
+
+
+def _too_few(objects: int, needed: int) -> str:
+    if objects < needed:
+        return f"only {objects} trunk{'s' if objects > 1 else ''} or posts in sight"
+    return "the trunks and posts in sight do not form a row"
 
 
 def _nothing(corners: CornerPoints, reason: str) -> RowLines:

@@ -10,7 +10,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from navcore.geometry.pinhole import PinholeCamera
 from navcore.messages import CameraName, CameraView, DetectedObject
@@ -25,6 +25,7 @@ class UnknownCameraParams:
     Attributes:
         field_of_view_deg: across the picture, as of most robots' cameras.
         pitch_deg: tilts, positive looks down. height: above the ground, m.
+        curve: scatter of plants per squared metre of distance, 1/m: a lens that is guessed bends rows.
         min_quality: the best row must be worth so much, 0 to 1: with enough cameras to choose from, anything stands
             in line somehow.
     """
@@ -32,6 +33,7 @@ class UnknownCameraParams:
     field_of_view_deg: float = 69.0
     pitch_deg: tuple[float, ...] = (-6.0, -3.0, 0.0, 3.0, 6.0, 9.0, 12.0, 15.0, 18.0, 21.0)
     height: tuple[float, ...] = (0.6, 0.85, 1.2, 1.7)
+    curve: float = 0.001
     min_quality: float = 0.5
 
 
@@ -59,8 +61,8 @@ def see_with_unknown_camera(
     image: Image, detector: Detector, params: UnknownCameraParams, perception: RowPerceptionParams
 ) -> Guess:
     """What is seen in one picture (H, W, 3), BGR. It is detected once and fitted with every camera."""
-    told = _Told(detector.detect(image))
-    tried = [(camera, _view(image, camera, told, perception)) for camera in _cameras(image, params)]
+    told, bent = _Told(detector.detect(image)), _with_curve(perception, params.curve)
+    tried = [(camera, _view(image, camera, told, bent)) for camera in _cameras(image, params)]
     camera, view = max(tried, key=lambda one: _worth(one[1]))
     if not view.row.valid:
         camera, view = tried[len(tried) // 2]
@@ -68,6 +70,11 @@ def see_with_unknown_camera(
     if view.row.valid and view.row.quality < params.min_quality:
         reason = "what stands in the picture makes no row that is sure enough"
     return Guess(camera=camera, view=view, reason=reason)
+
+
+def _with_curve(perception: RowPerceptionParams, curve: float) -> RowPerceptionParams:
+    corridor = perception.corridor
+    return replace(perception, corridor=replace(corridor, fit=replace(corridor.fit, curve=curve)))
 
 
 def _cameras(image: Image, params: UnknownCameraParams) -> Iterator[PinholeCamera]:

@@ -1,0 +1,96 @@
+"""Rows in rendered pictures by growth stage, through the shipped detector, on farms never seen: paper A's 3.1.4."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from navcore.bench.no_row_frames import Given
+from navcore.bench.valid_frames import PUBLISHED_FILTER
+from navcore.geometry.pinhole import PinholeCamera
+from navcore.geometry.se2 import SE2
+from navcore.maps.site_map import Row
+from navcore.messages import CameraName, RowObservation, SimTruth
+from navcore.perception.onnx_detector import OnnxDetector
+from navcore.perception.row_perception import RowMethod, RowPerception, RowPerceptionParams
+from navcore.sim.camera_light import LightName, named_light
+from navcore.sim.camera_renderer import CameraRenderer
+from navcore.sim.layouts import scoring_layout
+from navcore.sim.orchard import OrchardParams, Season, build_orchard
+
+STAGES = (Season.BUDDING, Season.GROWING, Season.MATURING)
+LIGHTS = (LightName.NOON, LightName.OVERCAST, LightName.BACKLIT)
+# Farms of this bench: no mission is scored on them.
+FIRST_FARM = 400
+# A centre line is right if the robot on it would be so near to the true one, m and deg.
+RIGHT_M, RIGHT_DEG = 0.15, 3.0
+STEP_M = 0.1
+
+
+@dataclass(slots=True)
+class StageCount:
+    """Pictures of one stage, and in how many the centre line was right; `none` had no line."""
+
+    frames: int = 0
+    right: int = 0
+    none: int = 0
+
+
+def count_stages(
+    camera: PinholeCamera, methods: tuple[RowMethod, ...], *, farms: int, frames: int, seed: int
+) -> dict[RowMethod, dict[Season, StageCount]]:
+    """`frames` pictures that follow each other in a row of each farm, for each stage; lights take turns."""
+    counts = {method: {stage: StageCount() for stage in STAGES} for method in methods}
+    detector = OnnxDetector()
+    for stage in STAGES:
+        for farm in range(farms):
+            given = Given()
+            perceptions = {method: _perception(camera, given, method) for method in methods}
+            for image, truth in _drive(camera, stage, farm, frames, seed):
+                given.objects = detector.detect(image)
+                for method, perception in perceptions.items():
+                    row = perception.process(image, 0, CameraName.FRONT, motion=SE2(STEP_M, 0.0, 0.0)).row
+                    _count(counts[method][stage], row, truth)
+    return counts
+
+
+def _perception(camera: PinholeCamera, given: Given, method: RowMethod) -> RowPerception:
+    return RowPerception(camera, given, RowPerceptionParams(method=method, filter=PUBLISHED_FILTER))
+
+
+def _count(count: StageCount, row: RowObservation, truth: SE2) -> None:
+    """`truth` are the row coordinates of the robot."""
+    count.frames += 1
+    if row.offset is None or row.heading is None:
+        count.none += 1
+        return
+    beside, turned = abs(-row.offset - truth.y), abs(-row.heading - truth.yaw)
+    count.right += beside <= RIGHT_M and turned <= math.radians(RIGHT_DEG)
+
+
+def _drive(
+    camera: PinholeCamera, stage: Season, farm: int, frames: int, seed: int
+) -> Iterator[tuple[NDArray[np.uint8], SE2]]:
+    """Pictures, and where in the row they were taken."""
+    site, rng = scoring_layout(FIRST_FARM + farm), np.random.default_rng((seed, farm))
+    orchard = build_orchard(site, OrchardParams(season=stage, seed=seed + farm))
+    light = named_light(LIGHTS[farm % len(LIGHTS)], along=float(rng.uniform(-math.pi, math.pi)), seed=seed + farm)
+    renderer = CameraRenderer(orchard, camera, light)
+    row = site.rows[int(rng.integers(len(site.rows)))]
+    at = SE2(
+        float(rng.uniform(2.0, 40.0)), float(rng.uniform(-0.3, 0.3)), math.radians(float(rng.uniform(-4.0, 4.0)))
+    )
+    for number in range(frames):
+        yield renderer.render(_truth(row, at, rng), number).image, at
+        at = at @ SE2(STEP_M, 0.0, 0.0)
+
+
+def _truth(row: Row, at: SE2, rng: np.random.Generator) -> SimTruth:
+    """A robot there, leaning as on rough ground."""
+    pose = SE2(*row.start, math.atan2(row.end[1] - row.start[1], row.end[0] - row.start[0])) @ at
+    roll, pitch = (float(a) for a in np.radians(rng.normal(0.0, 0.5, 2)))
+    return SimTruth(stamp_ns=0, x=pose.x, y=pose.y, yaw=pose.yaw, roll=roll, pitch=pitch, v=0.0, omega=0.0)

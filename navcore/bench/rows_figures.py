@@ -1,0 +1,122 @@
+"""The figures of `rowpilot bench rows`, beside what paper A published and what is wanted."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from navcore.bench.mission_figures import Figure
+from navcore.bench.no_row_frames import NoRow
+from navcore.bench.row_end_error import AT_M
+from navcore.bench.rows import PUBLISHED_BEST, SEED, RowsResult
+from navcore.bench.valid_frames import LAST_M, wilson
+from navcore.perception.row_perception import RowMethod
+from navcore.sim.orchard import Season
+
+OURS = RowMethod.CORRIDOR
+# Paper A, 3.1.3 (valid frames) and 3.1.4 (centre lines that are right).
+_PAPER_VALID = {RowMethod.LEAST_SQUARES: 0.8031, RowMethod.RANSAC: 0.9166, RowMethod.TEMPORAL_RANSAC: 0.9724}
+_PAPER_STAGES = {Season.BUDDING: 0.9437, Season.GROWING: 0.9269, Season.MATURING: 0.9228}
+_WANTED_FIT_US, _WANTED_END_M = 25.0, 0.5
+
+
+def rows_figures(result: RowsResult) -> tuple[Figure, ...]:
+    """In the order of the README's table."""
+    return (
+        *_valid_figures(result), *_stage_figures(result), *_false_figures(result), _abstained(result),
+        _end_figure(result), *_entry_figures(result), *_time_figures(result),
+    )  # fmt: skip
+
+
+def _share(
+    figure: str, part: int, whole: int, *, paper: float | None = None, baseline: float | None = None,
+    at_least: float | None = None, at_most: float | None = None,
+) -> Figure:  # fmt: skip
+    value = part / whole if whole else None
+    low, high = wilson(part, whole)
+    met = None
+    if value is not None and (at_least is not None or at_most is not None):
+        met = value >= at_least if at_least is not None else value <= (at_most or 0.0)
+    return Figure(
+        figure=figure, value=value, unit="share", n=whole, seed=SEED, low=low, high=high, paper=paper,
+        baseline=baseline, target=at_least if at_least is not None else at_most, ok=met,
+    )  # fmt: skip
+
+
+def _valid_figures(result: RowsResult) -> list[Figure]:
+    """By the paper's rule for each, then against the truth, in the row and near its end."""
+    best, ours = result.frames[PUBLISHED_BEST], result.frames[OURS]
+    figures = [
+        _share(f"valid frames by the paper's rule, {m}", c.row.valid, c.row.frames, paper=_PAPER_VALID.get(m))
+        for m, c in result.frames.items()
+    ]
+    row, last = (f"lines on the true ones{where}, ours" for where in ("", f" in the last {LAST_M:.0f} m"))
+    figures.append(
+        _share(row, ours.row.true, ours.row.frames, baseline=best.row.true / best.row.frames, at_least=0.995)
+    )
+    figures.append(
+        _share(last, ours.last.true, ours.last.frames, baseline=best.last.true / best.last.frames, at_least=0.99)
+    )
+    return figures
+
+
+def _stage_figures(result: RowsResult) -> list[Figure]:
+    figures = []
+    for stage, ours in result.stages[OURS].items():
+        other = result.stages[PUBLISHED_BEST][stage]
+        figures.append(
+            _share(f"centre line right, {stage}, ours", ours.right, ours.frames, paper=_PAPER_STAGES[stage],
+                   baseline=other.right / other.frames, at_least=0.99)
+        )  # fmt: skip
+    return figures
+
+
+def _false_figures(result: RowsResult) -> list[Figure]:
+    ours, other = result.false_lines[OURS], result.false_lines[PUBLISHED_BEST]
+    return [
+        _share(f"a line where no row is, {kind}, ours", ours[kind].seen, ours[kind].frames,
+               baseline=other[kind].seen / other[kind].frames, at_most=0.01)
+        for kind in NoRow
+    ]  # fmt: skip
+
+
+def _abstained(result: RowsResult) -> Figure:
+    ours, other = result.frames[OURS].row, result.frames[PUBLISHED_BEST].row
+    return _share(
+        "no line although there is a row, ours", ours.abstained, ours.frames, baseline=other.abstained / other.frames,
+        at_most=0.02,
+    )  # fmt: skip
+
+
+def _end_figure(result: RowsResult) -> Figure:
+    """95 of 100 are no worse."""
+    errors = result.end_errors
+    told = np.where(np.isnan(errors), np.inf, np.abs(errors))
+    value = float(np.quantile(told, 0.95, method="higher"))
+    return Figure(
+        figure=f"error of the row's end {AT_M:.0f} m before it, 95 % are no worse, ours",
+        value=value if np.isfinite(value) else None, unit="m", n=len(errors), seed=SEED, target=_WANTED_END_M,
+        ok=value <= _WANTED_END_M,
+    )  # fmt: skip
+
+
+def _entry_figures(result: RowsResult) -> list[Figure]:
+    ours, other = result.entries[OURS], result.entries[PUBLISHED_BEST]
+    return [
+        _share("of entrances that are seen, the one meant, ours", ours.meant, ours.trusted,
+               baseline=other.meant / max(other.trusted, 1), at_least=1.0),
+        _share("entrances that are seen from 7 to 3 m before them, ours", ours.trusted, ours.tried,
+               baseline=other.trusted / other.tried),
+    ]  # fmt: skip
+
+
+def _time_figures(result: RowsResult) -> list[Figure]:
+    ours, published = result.times["ours"], result.times["RANSAC as published"]
+    rivals = [time for name, time in result.times.items() if name != "ours"]
+    slowest = result.times.get("scikit-image RANSAC", published)
+    best_rate = max(time.right / time.n for time in rivals)
+    return [
+        Figure(figure="one side's fit, 40 points with 30 to 50 % outliers, ours", value=ours.seconds * 1e6, unit="us",
+               n=ours.n, seed=SEED, baseline=slowest.seconds * 1e6, target=_WANTED_FIT_US,
+               ok=ours.seconds * 1e6 <= _WANTED_FIT_US),
+        _share("fits within 0.03 rad, ours", ours.right, ours.n, baseline=best_rate, at_least=best_rate),
+    ]  # fmt: skip
