@@ -4,17 +4,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from enum import StrEnum
 
 import numpy as np
 
+from navcore.bench.placed_robot import in_row, placed
 from navcore.bench.valid_frames import PUBLISHED_FILTER
 from navcore.geometry.pinhole import PinholeCamera
 from navcore.geometry.se2 import SE2
 from navcore.maps.site_map import Row, SiteMap
-from navcore.messages import CameraName, DetectedObject, SimTruth
-from navcore.perception.detector import Image
+from navcore.messages import CameraName, DetectedObject
+from navcore.perception.detector import Told
 from navcore.perception.row_perception import RowMethod, RowPerception, RowPerceptionParams
 from navcore.sim.layouts import scoring_layout
 from navcore.sim.orchard import OrchardParams, build_orchard
@@ -36,17 +37,6 @@ class NoRow(StrEnum):
 
 
 @dataclass(slots=True)
-class Given:
-    """A `Detector` that gives what another has found, so that all methods see the same."""
-
-    objects: tuple[DetectedObject, ...] = field(default=())
-
-    def detect(self, image: Image) -> tuple[DetectedObject, ...]:
-        """The objects."""
-        return self.objects
-
-
-@dataclass(slots=True)
 class FalseLines:
     """Frames of one kind, and in how many a row was seen."""
 
@@ -63,7 +53,7 @@ def count_false_lines(
     for kind, objects in _views(camera, farms=farms, frames=frames, seed=seed):
         for method in methods:
             params = RowPerceptionParams(method=method, filter=PUBLISHED_FILTER)
-            seen = RowPerception(camera, Given(objects), params).process(image, 0, CameraName.FRONT)
+            seen = RowPerception(camera, Told(objects), params).process(image, 0, CameraName.FRONT)
             count = counts[method][kind]
             count.frames, count.seen = count.frames + 1, count.seen + seen.row.valid
     return counts
@@ -79,14 +69,8 @@ def _views(
         detector = ProjectedObjects(orchard, camera, ProjectedObjectsParams(), rng)
         for kind in NoRow:
             for _ in range(frames):
-                detector.look_from(_truth(_place(site, kind, rng), rng))
+                detector.look_from(placed(_place(site, kind, rng), rng, lean_deg=0.7))
                 yield kind, detector.detect(nothing)
-
-
-def _truth(at: SE2, rng: np.random.Generator) -> SimTruth:
-    """A robot there, leaning as on rough ground."""
-    roll, pitch = np.radians(rng.normal(0.0, 0.7, 2))
-    return SimTruth(stamp_ns=0, x=at.x, y=at.y, yaw=at.yaw, roll=float(roll), pitch=float(pitch), v=0.0, omega=0.0)
 
 
 def _place(site: SiteMap, kind: NoRow, rng: np.random.Generator) -> SE2:
@@ -111,7 +95,7 @@ def _before_end(row: Row, rng: np.random.Generator) -> SE2:
 def _beside(site: SiteMap, rng: np.random.Generator) -> SE2:
     """Outside the block, 1 to 2 m beside its first line of plants and along it, all plants on one side."""
     row, inward = site.rows[0], site.rows[1]
-    along = SE2(*row.start, math.atan2(row.end[1] - row.start[1], row.end[0] - row.start[0]))
+    along = in_row(row, SE2())
     side = math.copysign(1.0, along.inverse().apply_point(*inward.start)[1])
     width = abs(along.inverse().apply_point(*inward.start)[1])
     at = along @ SE2(float(rng.uniform(5.0, 40.0)), -side * (width / 2 + float(rng.uniform(1.0, 2.0))), 0.0)

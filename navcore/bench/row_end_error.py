@@ -7,10 +7,10 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from navcore.bench.no_row_frames import Given
 from navcore.bench.recorded_rows import RecordedFrame, RecordedRowsParams, record_rows
 from navcore.geometry.pinhole import PinholeCamera
 from navcore.messages import CameraName
+from navcore.perception.detector import Told
 from navcore.perception.row_lines import RowPrior
 from navcore.perception.row_perception import RowPerception, RowPerceptionParams
 
@@ -28,7 +28,7 @@ def end_errors(camera: PinholeCamera, *, drives: int, seed: int) -> NDArray[np.f
 
 
 def _error(camera: PinholeCamera, params: RecordedRowsParams, rng: np.random.Generator) -> float:
-    given = Given()
+    given = Told()
     perception = RowPerception(camera, given, RowPerceptionParams())
     image = rng.integers(0, 255, (camera.height_px, camera.width_px, 3), dtype=np.uint8)
     for frame in record_rows(camera, params, rng):

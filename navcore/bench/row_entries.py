@@ -8,12 +8,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from navcore.bench.no_row_frames import Given
+from navcore.bench.placed_robot import in_row, placed
 from navcore.bench.valid_frames import PUBLISHED_FILTER
 from navcore.geometry.pinhole import PinholeCamera
 from navcore.geometry.se2 import SE2
 from navcore.maps.site_map import Row
-from navcore.messages import CameraName, RowObservation, SimTruth
+from navcore.messages import CameraName, RowObservation
+from navcore.perception.detector import Told
 from navcore.perception.row_lines import RowPrior
 from navcore.perception.row_perception import RowMethod, RowPerception, RowPerceptionParams
 from navcore.sim.layouts import scoring_layout
@@ -61,11 +62,11 @@ def _approach(
     rng: np.random.Generator,
 ) -> float | None:  # fmt: skip
     """How far from the row that is meant lies the one that the camera came to be trusted on, m; None if on none."""
-    given, wrong, streak = Given(), float(rng.uniform(-MAP_ERROR_M, MAP_ERROR_M)), 0
+    given, wrong, streak = Told(), float(rng.uniform(-MAP_ERROR_M, MAP_ERROR_M)), 0
     perception = RowPerception(camera, given, RowPerceptionParams(method=method, filter=PUBLISHED_FILTER))
     image = rng.integers(0, 255, (camera.height_px, camera.width_px, 3), dtype=np.uint8)
     for at in _way_in(rng):
-        detector.look_from(_truth(row, at))
+        detector.look_from(placed(in_row(row, at), rng, lean_deg=0.5))
         given.objects = detector.detect(image)
         prior = RowPrior(offset=-at.y + wrong, heading=-at.yaw, std=PRIOR_STD_M, width=width)
         seen = perception.process(image, 0, CameraName.FRONT, prior=prior, motion=SE2(STEP_M, 0.0, 0.0)).row
@@ -81,11 +82,6 @@ def _way_in(rng: np.random.Generator) -> Iterator[SE2]:
     for _ in range(round(WAY_M / STEP_M)):
         yield at
         at = at @ SE2(STEP_M, 0.0, 0.0)
-
-
-def _truth(row: Row, at: SE2) -> SimTruth:
-    pose = SE2(*row.start, math.atan2(row.end[1] - row.start[1], row.end[0] - row.start[0])) @ at
-    return SimTruth(stamp_ns=0, x=pose.x, y=pose.y, yaw=pose.yaw, roll=0.0, pitch=0.0, v=0.6, omega=0.0)
 
 
 def _agrees(seen: RowObservation, prior: RowPrior, width: float) -> bool:

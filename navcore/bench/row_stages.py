@@ -9,12 +9,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from navcore.bench.no_row_frames import Given
+from navcore.bench.placed_robot import in_row, placed
 from navcore.bench.valid_frames import PUBLISHED_FILTER
 from navcore.geometry.pinhole import PinholeCamera
 from navcore.geometry.se2 import SE2
-from navcore.maps.site_map import Row
-from navcore.messages import CameraName, RowObservation, SimTruth
+from navcore.messages import CameraName, RowObservation
+from navcore.perception.detector import Told
 from navcore.perception.onnx_detector import OnnxDetector
 from navcore.perception.row_perception import RowMethod, RowPerception, RowPerceptionParams
 from navcore.sim.camera_light import LightName, named_light
@@ -48,7 +48,7 @@ def count_stages(
     detector = OnnxDetector()
     for stage in STAGES:
         for farm in range(farms):
-            given = Given()
+            given = Told()
             perceptions = {method: _perception(camera, given, method) for method in methods}
             for image, truth in _drive(camera, stage, farm, frames, seed):
                 given.objects = detector.detect(image)
@@ -58,7 +58,7 @@ def count_stages(
     return counts
 
 
-def _perception(camera: PinholeCamera, given: Given, method: RowMethod) -> RowPerception:
+def _perception(camera: PinholeCamera, given: Told, method: RowMethod) -> RowPerception:
     return RowPerception(camera, given, RowPerceptionParams(method=method, filter=PUBLISHED_FILTER))
 
 
@@ -85,12 +85,5 @@ def _drive(
         float(rng.uniform(2.0, 40.0)), float(rng.uniform(-0.3, 0.3)), math.radians(float(rng.uniform(-4.0, 4.0)))
     )
     for number in range(frames):
-        yield renderer.render(_truth(row, at, rng), number).image, at
+        yield renderer.render(placed(in_row(row, at), rng, lean_deg=0.5), number).image, at
         at = at @ SE2(STEP_M, 0.0, 0.0)
-
-
-def _truth(row: Row, at: SE2, rng: np.random.Generator) -> SimTruth:
-    """A robot there, leaning as on rough ground."""
-    pose = SE2(*row.start, math.atan2(row.end[1] - row.start[1], row.end[0] - row.start[0])) @ at
-    roll, pitch = (float(a) for a in np.radians(rng.normal(0.0, 0.5, 2)))
-    return SimTruth(stamp_ns=0, x=pose.x, y=pose.y, yaw=pose.yaw, roll=roll, pitch=pitch, v=0.0, omega=0.0)

@@ -20,7 +20,7 @@ _WANTED_FIT_US, _WANTED_END_M = 25.0, 0.5
 
 
 def rows_figures(result: RowsResult) -> tuple[Figure, ...]:
-    """In the order of the README's table."""
+    """Those of paper A first."""
     return (
         *_valid_figures(result), *_stage_figures(result), *_false_figures(result), _abstained(result),
         _end_figure(result), *_entry_figures(result), *_time_figures(result),

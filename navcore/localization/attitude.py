@@ -44,7 +44,7 @@ class Attitude:
         self._stamp_ns: int | None = None
         self._v = self._v_filtered = 0.0
         self._slope = GroundSlope(params.slope)
-        self._driven = 0.0
+        self._driven, self._way = 0.0, (0.0, 0.0)
 
     def add_speed(self, v: float) -> None:
         """Forward speed of the wheels, m/s: its change and the curve's pull are taken off the measured force."""
@@ -77,11 +77,12 @@ class Attitude:
 
     def drive(self, x: float, y: float, yaw: float) -> None:
         """Learn the slope over a way driven by (x, y), m, at a yaw in `odom`."""
-        self._slope.move(x, y)
+        self._way = self._way[0] + x, self._way[1] + y
         self._driven += math.hypot(x, y)
         if self._driven >= self.params.step:
+            self._slope.move(*self._way)
             self._slope.drive(self._driven, yaw, (-self.pitch, self.roll))
-            self._driven = 0.0
+            self._driven, self._way = 0.0, (0.0, 0.0)
 
     def see_height(self, height: float) -> None:
         """See `GroundSlope.see_height`."""

@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 
-# Before the first height, m: further from the datum's height no farm lies.
-UNKNOWN_LEVEL = 1000.0
+# Before the first height, m: no ground on Earth lies further from the ellipsoid.
+UNKNOWN_LEVEL = 10_000.0
 # Heights are taken so far apart, m.
 HEIGHT_STEP = 0.5
 

@@ -64,7 +64,7 @@ class PathAnchor:
 
     `put_back` are the metres by which rows have put the robot back, less those ahead: what the wheels told too many.
     `departed` is the tie by which the last row was left, carried on by odometry and put right by looks back at it;
-    `behind` is how well it is known then.
+    `behind` is how well it is known then, None where nobody looks back.
     `row_heading` is the direction in `map` of the row seen last, rad: along and across it the variances are meant.
     """
 
@@ -72,7 +72,8 @@ class PathAnchor:
         self.params = params
         self.T_map_odom = T_map_odom
         self.followed = self.departed = T_map_odom
-        self.row, self.behind = RowFilter(params.row), RowFilter(params.row)
+        self.row = RowFilter(params.row)
+        self.behind: RowFilter | None = None
         self._slide = PathSlide(params.slide)
         self.var_along = self.put_back = self.row_heading = 0.0
         self.slip = WheelSlip(params.slip)
@@ -113,7 +114,8 @@ class PathAnchor:
         p, d = self.params, abs(distance)
         self._driven += d
         self.var_along += p.growth_along**2 * d
-        self.behind.drive(d, dt, slope)
+        if self.behind is not None:
+            self.behind.drive(d, dt, slope)
         turned = T_odom_now @ SE2(0.0, 0.0, self.row.drive(d, dt, slope)) @ T_odom_now.inverse()
         self.T_map_odom, self.departed = self.T_map_odom @ turned, self.departed @ turned
 
@@ -131,11 +133,7 @@ class PathAnchor:
         row_std = p.left_heading + p.left_growth * self._driven
         share = row_std**2 / (row_std**2 + yaw_std**2) if self._left else 1.0
         yaw = by_row + share * wrap(T_map_base.yaw - by_row)
-        self.follow(SE2(T_map_base.x, T_map_base.y, wrap(yaw)) @ T_odom_base.inverse())
-
-    def follow(self, T_map_odom: SE2) -> None:
-        """Take the pose filter's tie."""
-        self.T_map_odom = T_map_odom
+        self.T_map_odom = SE2(T_map_base.x, T_map_base.y, wrap(yaw)) @ T_odom_base.inverse()
 
     def drift(self, T_odom_before: SE2, T_odom_now: SE2, moved: tuple[float, float]) -> None:
         """The robot has moved by `moved` m in `map`, whatever the wheels say; its turn is the gyro's."""
@@ -172,6 +170,8 @@ class PathAnchor:
 
     def see_left(self, row: RowLine, T_odom_drive: SE2, offset: float, heading: float, noise: Floats) -> None:
         """Lay the row that was left onto its seen centre line, and the path with it; as in `see_row`."""
+        if self.behind is None:
+            return
         at = row.coordinates(self.departed @ T_odom_drive)
         innovation = np.array((-offset - at.y, wrap(-heading - at.yaw)))
         across, turn = self.behind.look_back(innovation, noise)

@@ -59,7 +59,8 @@ class LookBack:
     @property
     def std(self) -> float:
         """1-sigma of where that row lies across the robot, m."""
-        return math.sqrt(self._anchor.behind.covariance[0, 0])
+        known = self._anchor.behind or self._anchor.row
+        return math.sqrt(known.covariance[0, 0])
 
     def choose(self, mode: NavMode, here: PathSegment, sees_row_ahead: bool) -> bool:
         """Look back on the straight way out of the row, once nothing is seen ahead; True if that begins now."""
@@ -68,6 +69,8 @@ class LookBack:
         self.active = way_out and self.row is not None and not sees_row_ahead
         if self.active and not before:
             self._anchor.look_back()
+        elif before and not self.active:
+            self._anchor.behind = None
         return self.active and not before
 
     def see(self, seen: RowObservation, T_odom_drive: SE2) -> None:

@@ -124,10 +124,11 @@ class Pilot:
 
     def _see(self, seen: RowObservation, T_odom_drive: SE2) -> None:
         """Judge what the camera saw by the row that is meant, and correct the anchor while driving on it."""
-        row, segment = self.row_line(), self.row_segment()
         if seen.camera is not self.camera():
             self.look_back.see(seen, T_odom_drive)
             return
+        segment = self.row_segment()
+        row = RowLine.of(segment)
         if row is None or segment is None:
             return
         expected = self._expected(T_odom_drive)
@@ -182,12 +183,10 @@ class Pilot:
         self.pose = self.anchor.followed @ self.driving_pose(at.T_odom_base)
         self.projection = self._project(near_s=0.0)
         self.row.forget()
-        self.look_back.row = None
+        self.look_back.row = LeftRow.of(self.row_segment())
 
     def _look_out(self) -> None:
         """Ahead, or back at the row that is being left once nothing is in sight ahead."""
-        if self.mode is NavMode.ROW:
-            self.look_back.row = LeftRow.of(self.row_segment()) or self.look_back.row
         if self.look_back.choose(self.mode, self.segment, self.sees_row):
             self.row.forget()
 
@@ -206,6 +205,8 @@ class Pilot:
         )  # fmt: skip
 
     def _on_switch(self) -> None:
+        if self.mode is NavMode.ROW:
+            self.look_back.row = LeftRow.of(self.row_segment())
         if self.mode is NavMode.GNSS_PATH:
             self.anchor.leave()
             self._comes_from_gnss = True

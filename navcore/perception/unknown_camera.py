@@ -13,8 +13,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from navcore.geometry.pinhole import PinholeCamera
-from navcore.messages import CameraName, CameraView, DetectedObject
-from navcore.perception.detector import Detector, Image
+from navcore.messages import CameraName, CameraView
+from navcore.perception.detector import Detector, Image, Told
 from navcore.perception.row_perception import RowPerception, RowPerceptionParams
 
 
@@ -46,22 +46,11 @@ class Guess:
     reason: str
 
 
-@dataclass(frozen=True, slots=True)
-class _Told:
-    """A detector that has looked already."""
-
-    objects: tuple[DetectedObject, ...]
-
-    def detect(self, image: Image) -> tuple[DetectedObject, ...]:
-        """The same as before."""
-        return self.objects
-
-
 def see_with_unknown_camera(
     image: Image, detector: Detector, params: UnknownCameraParams, perception: RowPerceptionParams
 ) -> Guess:
     """What is seen in one picture (H, W, 3), BGR. It is detected once and fitted with every camera."""
-    told, bent = _Told(detector.detect(image)), _with_curve(perception, params.curve)
+    told, bent = Told(detector.detect(image)), _with_curve(perception, params.curve)
     tried = [(camera, _view(image, camera, told, bent)) for camera in _cameras(image, params)]
     camera, view = max(tried, key=lambda one: _worth(one[1]))
     if not view.row.valid:
@@ -87,7 +76,7 @@ def _cameras(image: Image, params: UnknownCameraParams) -> Iterator[PinholeCamer
         )  # fmt: skip
 
 
-def _view(image: Image, camera: PinholeCamera, told: _Told, perception: RowPerceptionParams) -> CameraView:
+def _view(image: Image, camera: PinholeCamera, told: Told, perception: RowPerceptionParams) -> CameraView:
     return RowPerception(camera, told, perception).process(image, 0, CameraName.FRONT)
 
 

@@ -151,7 +151,7 @@ def test_followed_pose_never_jumps(
 ) -> None:  # fmt: skip
     anchor, odom = anchored(), SE2(8.0, 3.0, 0.25)
     before = anchor.followed @ odom
-    anchor.follow(SE2(2.0 + dx, 1.0 + dy, 0.1 + turn))
+    anchor.T_map_odom = SE2(2.0 + dx, 1.0 + dy, 0.1 + turn)
     after = anchor.slide(odom, dt, driven, heading)
     params = anchor.params.slide
     moved = SE2(before.x, before.y, heading).inverse() @ after
@@ -162,7 +162,7 @@ def test_followed_pose_never_jumps(
 
 def test_followed_pose_arrives() -> None:
     anchor, odom = anchored(), SE2(8.0, 3.0, 0.25)
-    anchor.follow(SE2(2.5, 1.0, 0.15))
+    anchor.T_map_odom = SE2(2.5, 1.0, 0.15)
     for _ in range(500):
         pose = anchor.slide(odom, 0.02, 0.01, 0.3)
     wanted = anchor.T_map_odom @ odom
@@ -175,7 +175,7 @@ def test_the_path_slides_straight_from_one_tie_to_the_other_whichever_way_the_ro
 ) -> None:
     """Or in a bend it would lie beside both."""
     anchor, odom = anchored(), SE2(8.0, 3.0, 0.25)
-    anchor.follow(SE2(2.0 + dx, 1.0 + dy, 0.1))
+    anchor.T_map_odom = SE2(2.0 + dx, 1.0 + dy, 0.1)
     before = anchor.followed @ odom
     for _ in range(40):
         now = anchor.slide(odom, 0.02, 0.01, heading)
@@ -226,7 +226,7 @@ def test_the_path_waits_for_a_robot_that_does_not_follow() -> None:
     anchor, odom = anchored(), SE2(8.0, 3.0, 0.25)
     before = anchor.followed @ odom
     wanted = before @ SE2(0.0, 0.8, 0.0)
-    anchor.follow(wanted @ odom.inverse())
+    anchor.T_map_odom = wanted @ odom.inverse()
     for _ in range(500):
         lateral = (before.inverse() @ anchor.followed @ odom).y
         anchor.slide(odom, 0.02, 0.01, before.yaw, lateral)

@@ -1,9 +1,8 @@
-"""Boxes of a known corridor as a flawless detector sees them, and a detector that gives what it is told."""
+"""Boxes of a known corridor as a flawless detector sees them, and a picture for who needs one."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -11,16 +10,6 @@ from navcore.geometry.pinhole import PinholeCamera, rotation_from_rpy
 from navcore.geometry.se2 import SE2
 from navcore.messages import DetectedObject, ObjectKind
 from navcore.perception.detector import Image
-
-
-@dataclass
-class Told:
-    """A `Detector` that finds what it is told."""
-
-    objects: tuple[DetectedObject, ...] = field(default=())
-
-    def detect(self, image: Image) -> tuple[DetectedObject, ...]:
-        return self.objects
 
 
 def picture(camera: PinholeCamera) -> Image:

@@ -14,9 +14,10 @@ from hypothesis import strategies as st
 from navcore.geometry.pinhole import PinholeCamera, robot_camera
 from navcore.geometry.se2 import SE2
 from navcore.messages import CameraName, CameraView
+from navcore.perception.detector import Told
 from navcore.perception.row_lines import RowPrior
 from navcore.perception.row_perception import RowMethod, RowPerception, RowPerceptionParams
-from tests.navcore.perception.corridor_views import Told, boxes_at, corridor_feet, picture
+from tests.navcore.perception.corridor_views import boxes_at, corridor_feet, picture
 
 FRONT = robot_camera()
 REAR = robot_camera(rear=True)

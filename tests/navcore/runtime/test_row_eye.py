@@ -7,9 +7,10 @@ from dataclasses import replace
 from navcore.geometry.pinhole import robot_camera
 from navcore.geometry.se2 import SE2
 from navcore.messages import CameraName, CameraRequest
+from navcore.perception.detector import Told
 from navcore.perception.row_perception import RowPerception, RowPerceptionParams
 from navcore.runtime.row_eye import RowEye
-from tests.navcore.perception.corridor_views import Told, boxes_at, corridor_feet, picture
+from tests.navcore.perception.corridor_views import boxes_at, corridor_feet, picture
 
 FRONT = robot_camera()
 NOBODY_ASKS = CameraRequest(stamp_ns=0, camera=CameraName.FRONT, odom_x=0.0, odom_y=0.0, odom_yaw=0.0)
