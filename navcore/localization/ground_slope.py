@@ -30,7 +30,7 @@ class GroundSlopeParams:
         land_deg, land_length: 1-sigma of the land's slope, and the way over which it becomes another, m.
         mount_deg: 1-sigma of how the IMU's axes and zeros are off.
         bump_deg, bump_length: 1-sigma of the lean in ruts and bumps, and the way over which it lasts, m.
-        gate: a reading of the camera further off than so many 1-sigma is not believed,
+        height_gate: so is a height. gate: a reading of the camera further off than so many 1-sigma is not believed,
         insist: unless so many in a row say the same: then the mount has moved.
         moved_deg: 1-sigma of how far a mount that has moved is off.
         height_std, height_length: 1-sigma of a height about the land's plane, m, by bumps and by GNSS, and the way
@@ -43,7 +43,8 @@ class GroundSlopeParams:
     mount_deg: float = 0.7
     bump_deg: float = 1.2
     bump_length: float = 10.0
-    gate: float = 3.5
+    gate: float = 2.5
+    height_gate: float = 3.5
     insist: int = 3
     moved_deg: float = 6.0
     height_std: float = 0.08
@@ -101,7 +102,7 @@ class GroundSlope:
             return
         noise = p.height_std**2 * max(1.0, p.height_length / self._since_height)
         off = height - float(self._state[4])
-        if abs(off) > p.gate * math.sqrt(float(self._covariance[4, 4]) + noise):
+        if abs(off) > p.height_gate * math.sqrt(float(self._covariance[4, 4]) + noise):
             self._heights_refused += 1
             if self._heights_refused >= p.insist:
                 self._forget_level()

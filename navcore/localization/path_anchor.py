@@ -179,6 +179,11 @@ class PathAnchor:
         self.T_map_odom = put_right @ self.departed.inverse() @ self.T_map_odom
         self.departed = put_right
 
+    def lose(self, heading: float, metres: float) -> None:
+        """Of the way that was driven in that direction, rad in `map`, so many metres were not driven."""
+        back = SE2(-metres * math.cos(heading), -metres * math.sin(heading), 0.0)
+        self.T_map_odom, self.departed = back @ self.T_map_odom, back @ self.departed
+
     def see_along(self, row: RowLine, T_odom_drive: SE2, along: float, std: float) -> None:
         """Correct the position along the row: `along` is the row coordinate x of the driving frame, m."""
         at = row.coordinates(self.T_map_odom @ T_odom_drive)
@@ -224,14 +229,9 @@ class PathAnchor:
         self.T_map_odom = T_map_drive @ T_odom_drive.inverse()
 
     def slide(
-        self,
-        T_odom_drive: SE2,
-        dt: float,
-        driven: float,
-        heading: float,
-        lateral_error: float = 0.0,
+        self, T_odom_drive: SE2, dt: float, driven: float, heading: float, lateral_error: float = 0.0,
         gentle: bool = False,
-    ) -> SE2:
+    ) -> SE2:  # fmt: skip
         """Move the followed tie towards the wanted one, `dt` s and `driven` m after the last time.
 
         `heading`, `lateral_error` and `gentle` as in `PathSlide`. Returns the followed pose of the driving frame.

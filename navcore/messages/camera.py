@@ -70,6 +70,8 @@ class RowObservation:
         end_distance: distance ahead at which the row ends, m, None if no end is in sight.
         seen_to: distance ahead up to which plants stand on its lines without a gap, m: it surely goes on that far;
             None if that cannot be said.
+        driven: metres ahead along the row since it came in sight, by the plants that stand there and not by wheels
+            that slip; None without a row. driven_since_ns: when it came in sight.
         objects: number of trunks and posts that carried the fit.
         left_seen, right_seen: this frame's own evidence for each side (False: carried over from earlier frames).
         lean: by so much more than told the camera leans to the side (roll of the driving frame, left side up), rad;
@@ -91,6 +93,8 @@ class RowObservation:
     width: float | None = None
     end_distance: float | None = None
     seen_to: float | None = None
+    driven: float | None = None
+    driven_since_ns: int | None = None
     objects: int = 0
     left_seen: bool = False
     right_seen: bool = False

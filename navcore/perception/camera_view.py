@@ -11,11 +11,13 @@ from navcore.perception.corner_points import CornerPoints
 from navcore.perception.image_lines import image_line
 from navcore.perception.lean_fit import Lean
 from navcore.perception.row_lines import GroundRow, RowLines
+from navcore.perception.row_odometry import Driven
 
 
 def row_observation(
     stamp_ns: int, name: CameraName, lines: RowLines, ground: GroundRow | str, end: float | None,
     seen_to: float | None, published: tuple[float, float] | None, lean: Lean | None = None,
+    driven: Driven | None = None,
 ) -> RowObservation:  # fmt: skip
     """The row on the ground, or the reason why there is none; `published` is the bisector's reading beside it."""
     if isinstance(ground, str):
@@ -29,7 +31,8 @@ def row_observation(
         quality=ground.quality, width=ground.width, end_distance=end, seen_to=seen_to,
         objects=len(ground.left_x) + len(ground.right_x), left_seen=lines.left_seen, right_seen=lines.right_seen,
         image_offset=image_offset, image_heading=image_heading, lean=lean.roll if lean else None,
-        lean_std=lean.std if lean else None,
+        lean_std=lean.std if lean else None, driven=driven.metres if driven else None,
+        driven_since_ns=driven.since_ns if driven else None,
     )  # fmt: skip
 
 

@@ -40,7 +40,7 @@ class LeanFitParams:
     plants: int = 2
     soft: float = 1.5
     rounds: int = 4
-    floor_deg: float = 0.7
+    floor_deg: float = 0.4
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from navcore.geometry.se2 import SE2
+from navcore.perception.plants_along import PlantsAlong
 from navcore.perception.row_lines import GroundRow
 
 Floats = NDArray[np.float64]
@@ -65,7 +66,7 @@ class PlantSightings:
         """Begin anew: another row, or pictures that do not follow each other."""
         self.driven, self._pictures = 0.0, 0
         self._next = 0.0
-        self._plants: list[tuple[bool, float]] = []
+        self._plants = PlantsAlong()
         self._rows: list[tuple[float, ...]] = []
 
     def add(self, row: GroundRow, motion: SE2, stretch: float) -> None:
@@ -95,13 +96,10 @@ class PlantSightings:
 
     def _plant(self, left: bool, along: float, gate: float) -> int:
         """Number of the plant that stands there, a new one if none does."""
-        near = [(abs(at - along), i) for i, (side, at) in enumerate(self._plants) if side is left]
-        off, i = min(near, default=(math.inf, -1))
-        if off > gate:
-            self._plants.append((left, along))
-            return len(self._plants) - 1
-        at = self._plants[i][1]
-        self._plants[i] = (left, at + self._params.blend * (along - at))
+        i = self._plants.nearest(left, along, gate)
+        if i is None:
+            return self._plants.add(left, along)
+        self._plants.blend(i, along, self._params.blend)
         return i
 
     def all(self) -> Sightings:

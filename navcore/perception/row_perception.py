@@ -22,6 +22,7 @@ from navcore.perception.lean_watch import LeanWatch, LeanWatchParams
 from navcore.perception.least_squares import LeastSquares
 from navcore.perception.row_end import RowEnd, RowEndParams, seen_to
 from navcore.perception.row_lines import GroundRow, RowCue, RowLineFitter, RowLines, RowPrior
+from navcore.perception.row_odometry import RowOdometry, RowOdometryParams
 from navcore.perception.row_ransac import Ransac, RansacParams
 from navcore.perception.temporal_ransac import SlopeCheckParams, TemporalRansac
 
@@ -56,6 +57,7 @@ class RowPerceptionParams:
     corridor: CorridorTrackerParams = CorridorTrackerParams()
     row_end: RowEndParams = RowEndParams()
     lean: LeanWatchParams = LeanWatchParams()
+    odometry: RowOdometryParams = RowOdometryParams()
 
 
 def row_line_fitter(camera: PinholeCamera, params: RowPerceptionParams) -> RowLineFitter:
@@ -80,6 +82,7 @@ class RowPerception:
         self._fitter = row_line_fitter(self._camera, params)
         self._end = RowEnd(params.row_end)
         self._lean = LeanWatch(self._camera, params.lean)
+        self._odometry = RowOdometry(params.odometry)
 
     def process(
         self, image: Image, stamp_ns: int, camera_name: CameraName, *, prior: RowPrior | None = None,
@@ -99,9 +102,11 @@ class RowPerception:
         end = self._row_end(ground, cue.motion)
         bisector = image_bisector(lines.left, lines.right) if lines.left and lines.right else None
         published = published_reading(bisector, self._camera, self._params.look_ahead) if bisector else None
-        lean = self._lean.see(None if isinstance(ground, str) else ground, cue.motion, prior.roll if prior else 0.0)
+        shown = None if isinstance(ground, str) else ground
+        lean = self._lean.see(shown, cue.motion, prior.roll if prior else 0.0)
+        driven = self._odometry.see(shown, cue.motion, stamp_ns)
         row = row_observation(
-            stamp_ns, camera_name, lines, fault or ground, end, self._seen_to(ground), published, lean
+            stamp_ns, camera_name, lines, fault or ground, end, self._seen_to(ground), published, lean, driven
         )  # fmt: skip
         return camera_view(self._camera, objects, corners, lines, ground, bisector, row, latency_ms)
 
@@ -110,6 +115,7 @@ class RowPerception:
         self._fitter.forget()
         self._end.forget()
         self._lean.forget()
+        self._odometry.forget()
 
     def _fault(self, image: Image) -> str:
         return picture_fault(image, width_px=self._camera.width_px, height_px=self._camera.height_px)

@@ -1428,19 +1428,32 @@ export interface components {
          *         reason: why there is none, a short sentence; empty when valid.
          *         offset: signed distance from the driving frame's origin to the centre line, m, positive if the line is left.
          *         heading: direction of the centre line in the driving frame, rad.
-         *         offset_std, heading_std: 1-sigma.
+         *         offset_std, heading_std: 1-sigma. correlation: of both errors, in (-1, 1).
          *         quality: 0 to 1.
          *         width: corridor width, m, None if not known.
          *         end_distance: distance ahead at which the row ends, m, None if no end is in sight.
          *         seen_to: distance ahead up to which plants stand on its lines without a gap, m: it surely goes on that far;
          *             None if that cannot be said.
+         *         driven: metres ahead along the row since it came in sight, by the plants that stand there and not by wheels
+         *             that slip; None without a row. driven_since_ns: when it came in sight.
          *         objects: number of trunks and posts that carried the fit.
          *         left_seen, right_seen: this frame's own evidence for each side (False: carried over from earlier frames).
+         *         lean: by so much more than told the camera leans to the side (roll of the driving frame, left side up), rad;
+         *             once every few metres, else None. lean_std: 1-sigma.
          *         image_offset, image_heading: paper A's reading of the image's bisector: lateral deviation of the centre line
          *             at the look-ahead depth, m, and its angle to the image's vertical, rad; both positive to the left.
          */
         RowObservation: {
             camera: components["schemas"]["CameraName"];
+            /**
+             * Correlation
+             * @default 0
+             */
+            correlation: number;
+            /** Driven */
+            driven?: number | null;
+            /** Driven Since Ns */
+            driven_since_ns?: number | null;
             /** End Distance */
             end_distance?: number | null;
             /** Heading */
@@ -1451,6 +1464,10 @@ export interface components {
             image_heading?: number | null;
             /** Image Offset */
             image_offset?: number | null;
+            /** Lean */
+            lean?: number | null;
+            /** Lean Std */
+            lean_std?: number | null;
             /**
              * Left Seen
              * @default false

@@ -90,6 +90,15 @@ def test_a_hundred_looks_back_at_the_same_plants_do_not_undo_what_the_row_told()
     assert 0.0 < -ROW.coordinates(anchor.T_map_odom @ odom).y < 0.07  # m
 
 
+def test_metres_that_the_wheels_only_told_are_taken_back_along_the_row_alone() -> None:
+    anchor, odom = anchored(), SE2(8.0, 3.0, 0.25)
+    before = ROW.coordinates(anchor.T_map_odom @ odom)
+    anchor.lose(ROW.heading, 0.3)
+    for tie in (anchor.T_map_odom, anchor.departed):
+        now = ROW.coordinates(tie @ odom)
+        assert (now.x, now.y, now.yaw) == pytest.approx((before.x - 0.3, before.y, before.yaw), abs=1e-9)  # m, rad
+
+
 def test_row_end_corrects_the_place_along_the_row() -> None:
     anchor, odom = anchored(), SE2(8.0, 3.0, 0.25)
     wanted = ROW.coordinates(anchor.T_map_odom @ odom).x + 1.5

@@ -1,0 +1,36 @@
+"""Plants of a row told apart by their side and by how far along it they stand."""
+
+from __future__ import annotations
+
+import math
+
+
+class PlantsAlong:
+    """Numbers the plants that are met, and remembers where each stands along the row, m."""
+
+    def __init__(self) -> None:
+        self.along: list[float] = []
+        self.sightings: list[int] = []
+        self._left: list[bool] = []
+
+    def nearest(self, left: bool, along: float, gate: float) -> int | None:
+        """Number of that side's plant which stands there, None if none does within `gate` m."""
+        near = [
+            (abs(at - along), i)
+            for i, (side, at) in enumerate(zip(self._left, self.along, strict=True))
+            if side is left
+        ]
+        off, i = min(near, default=(math.inf, -1))
+        return i if off <= gate else None
+
+    def add(self, left: bool, along: float) -> int:
+        """Number of a new plant."""
+        self.along.append(along)
+        self.sightings.append(1)
+        self._left.append(left)
+        return len(self.along) - 1
+
+    def blend(self, i: int, along: float, share: float) -> None:
+        """Another sighting of plant `i` moves it by that share."""
+        self.along[i] += share * (along - self.along[i])
+        self.sightings[i] += 1
