@@ -53,6 +53,13 @@ class ImageLine:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class ImageArea:
+    """An area of the image, corners (u, v) in pixels in order."""
+
+    points: tuple[tuple[float, float], ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class RowObservation:
     """The row ahead as one sensor saw it at `stamp_ns`, in the camera's driving frame.
 
@@ -108,7 +115,8 @@ class RowObservation:
 class CameraView:
     """A picture's description for the browser; the camera's own JPEG travels beside it in the same message.
 
-    `centre` is the corridor's centre line on the ground, `bisector` the published one in the image.
+    `centre` is the corridor's centre line on the ground, `bisector` the published one in the image. `left_band` and
+    `right_band` are where the lines lie with 95 %, `region` is where corner points count.
     """
 
     stamp_ns: int
@@ -123,6 +131,9 @@ class CameraView:
     row: RowObservation
     latency_ms: float
     bisector: ImageLine | None = None
+    left_band: ImageArea | None = None
+    right_band: ImageArea | None = None
+    region: ImageArea | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -6,10 +6,19 @@ import math
 
 from navcore.geometry.line2 import Line2
 from navcore.geometry.pinhole import PinholeCamera
-from navcore.messages import CameraName, CameraView, DetectedObject, ImageLine, ImagePoint, RowObservation
+from navcore.messages import (
+    CameraName,
+    CameraView,
+    DetectedObject,
+    ImageArea,
+    ImageLine,
+    ImagePoint,
+    RowObservation,
+)
 from navcore.perception.corner_points import CornerPoints
 from navcore.perception.image_lines import image_line
 from navcore.perception.lean_fit import Lean
+from navcore.perception.row_bands import row_band
 from navcore.perception.row_lines import GroundRow, RowLines
 from navcore.perception.row_odometry import Driven
 
@@ -39,6 +48,7 @@ def row_observation(
 def camera_view(
     camera: PinholeCamera, objects: tuple[DetectedObject, ...], corners: CornerPoints, lines: RowLines,
     ground: GroundRow | str, bisector: Line2 | None, row: RowObservation, latency_ms: float,
+    region: ImageArea | None = None,
 ) -> CameraView:  # fmt: skip
     """Boxes, corner points and lines, as they are drawn over the picture. A row that is not valid has no lines."""
     shown = None if isinstance(ground, str) or not row.valid else ground
@@ -49,7 +59,9 @@ def camera_view(
         stamp_ns=row.stamp_ns, camera=row.camera, width_px=camera.width_px, height_px=camera.height_px,
         objects=objects, points=_points(corners, lines), left=_segment(left, camera, pitch),
         right=_segment(right, camera, pitch), centre=_segment(centre, camera, pitch), row=row, latency_ms=latency_ms,
-        bisector=_segment(bisector if shown else None, camera, pitch),
+        bisector=_segment(bisector if shown else None, camera, pitch), region=region,
+        left_band=row_band(camera, shown, 1.0) if shown else None,
+        right_band=row_band(camera, shown, -1.0) if shown else None,
     )  # fmt: skip
 
 

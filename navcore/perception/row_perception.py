@@ -20,6 +20,7 @@ from navcore.perception.ground_row import GroundRowParams, ground_row
 from navcore.perception.image_lines import driving_camera, image_bisector, looks_back, published_reading
 from navcore.perception.lean_watch import LeanWatch, LeanWatchParams
 from navcore.perception.least_squares import LeastSquares
+from navcore.perception.row_bands import filter_region
 from navcore.perception.row_end import RowEnd, RowEndParams, seen_to
 from navcore.perception.row_lines import GroundRow, RowCue, RowLineFitter, RowLines, RowPrior
 from navcore.perception.row_odometry import RowOdometry, RowOdometryParams
@@ -83,6 +84,8 @@ class RowPerception:
         self._end = RowEnd(params.row_end)
         self._lean = LeanWatch(self._camera, params.lean)
         self._odometry = RowOdometry(params.odometry)
+        c = self._camera
+        self._region = filter_region(params.filter, width_px=c.width_px, height_px=c.height_px)
 
     def process(
         self, image: Image, stamp_ns: int, camera_name: CameraName, *, prior: RowPrior | None = None,
@@ -108,7 +111,7 @@ class RowPerception:
         row = row_observation(
             stamp_ns, camera_name, lines, fault or ground, end, self._seen_to(ground), published, lean, driven
         )  # fmt: skip
-        return camera_view(self._camera, objects, corners, lines, ground, bisector, row, latency_ms)
+        return camera_view(self._camera, objects, corners, lines, ground, bisector, row, latency_ms, self._region)
 
     def forget(self) -> None:
         """The next picture does not follow the last one."""

@@ -656,7 +656,8 @@ export interface components {
          * CameraView
          * @description A picture's description for the browser; the camera's own JPEG travels beside it in the same message.
          *
-         *     `centre` is the corridor's centre line on the ground, `bisector` the published one in the image.
+         *     `centre` is the corridor's centre line on the ground, `bisector` the published one in the image. `left_band` and
+         *     `right_band` are where the lines lie with 95 %, `region` is where corner points count.
          */
         CameraView: {
             bisector?: components["schemas"]["ImageLine"] | null;
@@ -667,11 +668,14 @@ export interface components {
             /** Latency Ms */
             latency_ms: number;
             left: components["schemas"]["ImageLine"] | null;
+            left_band?: components["schemas"]["ImageArea"] | null;
             /** Objects */
             objects: components["schemas"]["DetectedObject"][];
             /** Points */
             points: components["schemas"]["ImagePoint"][];
+            region?: components["schemas"]["ImageArea"] | null;
             right: components["schemas"]["ImageLine"] | null;
+            right_band?: components["schemas"]["ImageArea"] | null;
             row: components["schemas"]["RowObservation"];
             /** Stamp Ns */
             stamp_ns: number;
@@ -782,6 +786,17 @@ export interface components {
             std_up_m?: number | null;
             /** Utc S */
             utc_s: number | null;
+        };
+        /**
+         * ImageArea
+         * @description An area of the image, corners (u, v) in pixels in order.
+         */
+        ImageArea: {
+            /** Points */
+            points: [
+                number,
+                number
+            ][];
         };
         /**
          * ImageLine

@@ -1,7 +1,7 @@
 import { describe, expect, test } from "vitest";
 
 import type { CameraView } from "../api/types";
-import { ALL_LAYERS, OVERLAY_COLORS, type LayerName, overlay } from "./overlay";
+import { ALL_LAYERS, FIRST_LAYERS, OVERLAY_COLORS, type LayerName, overlay } from "./overlay";
 
 const LINE = { u0: 100, v0: 360, u1: 300, v1: 180 };
 
@@ -16,12 +16,14 @@ const VIEW = {
   left: LINE,
   right: LINE,
   centre: LINE,
+  left_band: { points: [[90, 360], [110, 360], [300, 180]] },
+  region: { points: [[0, 0], [640, 0], [640, 360], [0, 360]] },
   row: { valid: true, reason: "", offset: -0.04, offset_std: 0.02, quality: 0.86, end_distance: 12.34, left_seen: true, right_seen: false },
 } as unknown as CameraView;
 
-const NO_ROW = { ...VIEW, left: null, right: null, centre: null, row: { ...VIEW.row, valid: false, reason: "1 trunk within 5 m", end_distance: null } } as CameraView;
+const NO_ROW = { ...VIEW, left: null, right: null, centre: null, left_band: null, row: { ...VIEW.row, valid: false, reason: "1 trunk within 5 m", end_distance: null } } as CameraView;
 
-const only = (name: LayerName) => ({ boxes: false, points: false, sides: false, centre: false, end: false, words: false, [name]: true });
+const only = (name: LayerName) => ({ boxes: false, region: false, points: false, sides: false, doubt: false, centre: false, end: false, words: false, [name]: true });
 
 describe("layers over the picture", () => {
   test("a box stands where the object is, in the picture's pixels", () =>
@@ -34,6 +36,18 @@ describe("layers over the picture", () => {
 
   test("a side carried over from earlier pictures is dashed", () =>
     expect(overlay(VIEW, only("sides")).map((s) => s.kind === "line" && s.dash)).toEqual([false, true]));
+
+  test("what is uncertain is an area about its line, for the sides that have a line", () =>
+    expect(overlay(VIEW, only("doubt"))).toEqual([
+      { kind: "area", points: [[90, 360], [110, 360], [300, 180]], color: OVERLAY_COLORS.left, filled: true },
+    ]));
+
+  test("the region of the geometric filter is an outline, not shown until asked for", () => {
+    expect(overlay(VIEW, only("region"))).toEqual([
+      { kind: "area", points: VIEW.region?.points, color: OVERLAY_COLORS.region, filled: false },
+    ]);
+    expect(overlay(VIEW, FIRST_LAYERS).some((shape) => shape.kind === "area" && !shape.filled)).toBe(false);
+  });
 
   test("the row's end is told at the far end of the centre line", () =>
     expect(overlay(VIEW, only("end"))).toEqual([{ kind: "tag", u: 300, v: 180, text: "Row ends in 12.3 m", color: OVERLAY_COLORS.end }]));

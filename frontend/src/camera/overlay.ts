@@ -2,12 +2,14 @@
 import type { CameraView } from "../api/types";
 import { metres } from "../ui/format";
 
-export type LayerName = "boxes" | "points" | "sides" | "centre" | "end" | "words";
+export type LayerName = "boxes" | "region" | "points" | "sides" | "doubt" | "centre" | "end" | "words";
 
 export const LAYERS: { name: LayerName; word: string }[] = [
   { name: "boxes", word: "Objects" },
   { name: "points", word: "Corner points" },
+  { name: "region", word: "Filter region" },
   { name: "sides", word: "Row lines" },
+  { name: "doubt", word: "Uncertainty" },
   { name: "centre", word: "Centre line" },
   { name: "end", word: "Row end" },
   { name: "words", word: "Words" },
@@ -15,20 +17,26 @@ export const LAYERS: { name: LayerName; word: string }[] = [
 
 export type Layers = Readonly<Record<LayerName, boolean>>;
 
-export const ALL_LAYERS: Layers = { boxes: true, points: true, sides: true, centre: true, end: true, words: true };
+export const ALL_LAYERS: Layers = { boxes: true, region: true, points: true, sides: true, doubt: true, centre: true, end: true, words: true };
+
+/** What a new browser shows: the filter's region is for who sets it, and by default it is the whole picture. */
+export const FIRST_LAYERS: Layers = { ...ALL_LAYERS, region: false };
 
 export type Shape =
   | { kind: "box"; x: number; y: number; width: number; height: number; color: string; text: string }
   | { kind: "dot"; u: number; v: number; color: string; filled: boolean }
+  | { kind: "area"; points: readonly (readonly number[])[]; color: string; filled: boolean }
   | { kind: "line"; u0: number; v0: number; u1: number; v1: number; color: string; width: number; dash: boolean }
   | { kind: "tag"; u: number; v: number; text: string; color: string }
   | { kind: "banner"; text: string; good: boolean };
 
-export const OVERLAY_COLORS = { trunk: "#ffa94d", post: "#74c0fc", kept: "#69db7c", rejected: "#ff6b6b", left: "#ffd43b", right: "#ff8cc6", centre: "#38f26f", end: "#ffffff" } as const;
+export const OVERLAY_COLORS = { trunk: "#ffa94d", post: "#74c0fc", kept: "#69db7c", rejected: "#ff6b6b", left: "#ffd43b", right: "#ff8cc6", centre: "#38f26f", end: "#ffffff", region: "#ffffff" } as const;
 
 /** The shapes of every layer that is on, in the order in which they are painted. */
 export function overlay(view: CameraView, layers: Layers): Shape[] {
   return [
+    ...(layers.doubt ? doubt(view) : []),
+    ...(layers.region ? region(view) : []),
     ...(layers.boxes ? boxes(view) : []),
     ...(layers.sides ? sides(view) : []),
     ...(layers.centre ? centre(view) : []),
@@ -59,6 +67,17 @@ function sides({ left, right, row }: CameraView): Shape[] {
   if (right) shapes.push({ kind: "line", ...right, color: OVERLAY_COLORS.right, width: 3, dash: !row.right_seen });
   return shapes;
 }
+
+/** Where each line lies with 95 %. */
+function doubt({ left_band, right_band }: CameraView): Shape[] {
+  const shapes: Shape[] = [];
+  if (left_band) shapes.push({ kind: "area", points: left_band.points, color: OVERLAY_COLORS.left, filled: true });
+  if (right_band) shapes.push({ kind: "area", points: right_band.points, color: OVERLAY_COLORS.right, filled: true });
+  return shapes;
+}
+
+const region = (view: CameraView): Shape[] =>
+  view.region ? [{ kind: "area", points: view.region.points, color: OVERLAY_COLORS.region, filled: false }] : [];
 
 const centre = (view: CameraView): Shape[] =>
   view.centre ? [{ kind: "line", ...view.centre, color: OVERLAY_COLORS.centre, width: 5, dash: false }] : [];

@@ -16,6 +16,8 @@ function paintOne(ctx: CanvasRenderingContext2D, shape: Shape, scale: number, ra
       return paintBox(ctx, shape, scale, ratio);
     case "dot":
       return paintDot(ctx, shape, scale, ratio);
+    case "area":
+      return paintArea(ctx, shape, scale, ratio);
     case "line":
       return paintLine(ctx, shape, scale, ratio);
     case "tag":
@@ -47,6 +49,19 @@ function paintDot(ctx: CanvasRenderingContext2D, dot: Extract<Shape, { kind: "do
   ctx.fillStyle = dot.color;
   if (dot.filled) ctx.fill();
   ctx.stroke();
+}
+
+function paintArea(ctx: CanvasRenderingContext2D, area: Extract<Shape, { kind: "area" }>, scale: number, ratio: number): void {
+  ctx.beginPath();
+  for (const [u = 0, v = 0] of area.points) ctx.lineTo(u * scale, v * scale);
+  ctx.closePath();
+  ctx.setLineDash([6 * ratio, 6 * ratio]);
+  ctx.lineWidth = 2 * ratio;
+  ctx.strokeStyle = ctx.fillStyle = area.color;
+  ctx.globalAlpha = area.filled ? 0.3 : 0.8;
+  if (area.filled) ctx.fill();
+  else ctx.stroke();
+  ctx.globalAlpha = 1;
 }
 
 function paintLine(ctx: CanvasRenderingContext2D, line: Extract<Shape, { kind: "line" }>, scale: number, ratio: number): void {

@@ -1,9 +1,9 @@
 import { useLocalStorage } from "@mantine/hooks";
 
-import { ALL_LAYERS, type Layers } from "./overlay";
+import { FIRST_LAYERS, type Layers } from "./overlay";
 
 /** The operator's choice of layers, kept in this browser. */
 export function useLayers(): [Layers, (layers: Layers) => void] {
-  const [layers, setLayers] = useLocalStorage<Layers>({ key: "rowpilot.layers", defaultValue: ALL_LAYERS, getInitialValueInEffect: false });
-  return [{ ...ALL_LAYERS, ...layers }, setLayers];
+  const [layers, setLayers] = useLocalStorage<Layers>({ key: "rowpilot.layers", defaultValue: FIRST_LAYERS, getInitialValueInEffect: false });
+  return [{ ...FIRST_LAYERS, ...layers }, setLayers];
 }
