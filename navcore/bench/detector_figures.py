@@ -8,8 +8,7 @@ import numpy as np
 
 from navcore.bench.detector import OURS, SIZED, CellScores, DetectorResult
 from navcore.bench.detector_frames import SEED
-from navcore.bench.mission_figures import Figure
-from navcore.bench.valid_frames import wilson
+from navcore.bench.figure import Figure, share
 from navcore.sim.camera_light import LightName
 from navcore.sim.orchard import Season
 
@@ -41,9 +40,9 @@ def _map_figure(name: str, cell: CellScores) -> Figure:
     target = _WANTED_MAP if name == OURS else None
     value = mine.map50 if np.isfinite(mine.map50) else None
     return Figure(
-        figure=f"mAP50, {where.stage}, {where.light}, {name}", value=value, unit="1", n=mine.pictures,
+        figure=f"mAP50, {where.stage}, {where.light}, {name}", value=value, unit="share", n=mine.pictures,
         seed=where.seed, paper=_PAPER_MAP[where.stage, where.light], baseline=_best_other(name, cell), target=target,
-        ok=_met(value, target),
+        ok=_met(value, target), table="Paper A, Table 4: detection by growth stage and light",
     )  # fmt: skip
 
 
@@ -59,18 +58,15 @@ def _share_figures(name: str, result: DetectorResult) -> Iterator[Figure]:
     yield _share(f"recall of boxes, {name}", hits.true, hits.asked, name, paper=_PAPER_RECALL)
     yield _share(f"precision of boxes, {name}", hits.true, hits.meant, name, paper=_PAPER_PRECISION)
     for what, value in (("recall", feet.recall), ("precision", feet.precision)):
-        yield Figure(figure=f"{what} of feet within 8 px, {name}", value=value, unit="1", n=hits.asked, seed=SEED)
+        yield Figure(figure=f"{what} of feet within 8 px, {name}", value=value, unit="share", n=hits.asked, seed=SEED)
 
 
 def _share(figure: str, part: int, whole: int, name: str, *, paper: float) -> Figure:
     """At the working threshold, an overlap of one half, the right class."""
-    value = part / whole if whole else None
-    low, high = wilson(part, whole)
     target = _WANTED_SHARE if name == OURS else None
-    return Figure(
-        figure=figure, value=value, unit="1", n=whole, seed=SEED, low=low, high=high, paper=paper, target=target,
-        ok=_met(value, target),
-    )  # fmt: skip
+    return share(
+        figure, part, whole, seed=SEED, paper=paper, at_least=target, table="Paper B, Table 2: detection of trunks"
+    )
 
 
 def _times(name: str, result: DetectorResult) -> Iterator[Figure]:

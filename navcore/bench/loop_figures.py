@@ -7,9 +7,9 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import NDArray
 
+from navcore.bench.figure import Figure
 from navcore.bench.loop import Phase
 from navcore.bench.loop_log import exposure_to_frame, lateness, periods
-from navcore.bench.mission_figures import Figure
 
 # Wanted, s. Paper A tells of about 100 ms from picture to command.
 PERIOD_P99, PERIOD_MAX = 0.025, 0.050

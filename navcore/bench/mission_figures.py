@@ -3,43 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
 
 import numpy as np
 
 from navcore.bench.evaluate import Deviation, Evaluation
+from navcore.bench.figure import Figure, share
 from navcore.bench.mission_cases import SPEEDS, CaseKind, Track
 from navcore.bench.mission_result import MissionResult
-from navcore.bench.valid_frames import wilson
 
 # Paper A, Table 12 (mean lateral deviation on GNSS, m) and Table 13 (mean heading deviation in rows, deg, image).
 _PAPER_TRACKS = {Track.STRAIGHT: 0.093, Track.CURVE: 0.164, Track.Z: 0.221}
 _WANTED_TRACKS = {Track.STRAIGHT: (0.08, 0.03), Track.CURVE: (0.12, 0.05), Track.Z: (0.15, 0.06)}
 _PAPER_HEADING_DEG = {0.4: 3.24, 0.6: 5.23, 0.8: 8.12}
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Figure:
-    """One row of the table.
-
-    Attributes:
-        value: None if no case gave it. n: how many missions, passes or switches it rests on. seed: of the first case.
-        low, high: Wilson 95 % interval of a share.
-        paper, baseline, target: to compare with; None where there is none.
-        ok: whether the target is met, None without one or without a value.
-    """
-
-    figure: str
-    value: float | None
-    unit: str
-    n: int
-    seed: int | None
-    low: float | None = None
-    high: float | None = None
-    paper: float | None = None
-    baseline: float | None = None
-    target: float | None = None
-    ok: bool | None = None
+_TRACKS_TABLE, _HEADING_TABLE = (
+    "Paper A, Table 12: lateral deviation on GNSS",
+    "Paper A, Table 13: heading deviation in rows",
+)
 
 
 def mission_figures(results: Iterable[MissionResult]) -> tuple[Figure, ...]:
@@ -51,25 +30,20 @@ def mission_figures(results: Iterable[MissionResult]) -> tuple[Figure, ...]:
     tracks = [r for r in known if r.case.kind is CaseKind.TRACK]
     ablation = float(np.mean([r.clean for r in alone])) if alone else None
     return (
-        _share("missions finished without a human", missions, target=1.0, baseline=ablation),
-        _share("the same missions on GNSS alone", alone),
+        _clean("missions finished without a human", missions, target=1.0, baseline=ablation),
+        _clean("the same missions on GNSS alone", alone),
         *_track_figures(tracks),
         *_row_figures(missions),
         *_switch_figures(missions),
-        _share("row changes over the headland without an RTK fix", changes, target=0.95),
+        _clean("row changes over the headland without an RTK fix", changes, target=0.95),
     )
 
 
-def _share(
+def _clean(
     name: str, results: list[MissionResult], *, target: float | None = None, baseline: float | None = None
 ) -> Figure:
     clean = sum(r.clean for r in results)
-    low, high = wilson(clean, len(results))
-    value = clean / len(results) if results else None
-    return Figure(
-        figure=name, value=value, unit="share", n=len(results), seed=_seed(results), low=low, high=high,
-        target=target, baseline=baseline, ok=None if value is None or target is None else value >= target,
-    )  # fmt: skip
+    return share(name, clean, len(results), seed=_seed(results), at_least=target, baseline=baseline)
 
 
 def _track_figures(results: list[MissionResult]) -> tuple[Figure, ...]:
@@ -79,7 +53,15 @@ def _track_figures(results: list[MissionResult]) -> tuple[Figure, ...]:
         whole, steady = _WANTED_TRACKS[track]
         paper = _PAPER_TRACKS[track]
         figures += [
-            _mean(f"lateral on GNSS, {track}, whole", of, lambda e: e.gnss_whole, "m", target=whole, paper=paper),
+            _mean(
+                f"lateral on GNSS, {track}, whole",
+                of,
+                lambda e: e.gnss_whole,
+                "m",
+                target=whole,
+                paper=paper,
+                table=_TRACKS_TABLE,
+            ),
             _mean(f"lateral on GNSS, {track}, from 10 m on", of, lambda e: e.gnss_steady, "m", target=steady),
         ]
     return tuple(figures)
@@ -94,23 +76,22 @@ def _row_figures(results: list[MissionResult]) -> tuple[Figure, ...]:
         paper = _PAPER_HEADING_DEG[speed]
         figures += [
             _mean(f"heading in rows at {speed} m/s, on the ground", of, lambda e: e.row_heading_deg, "deg"),
-            _mean(
-                f"heading in rows at {speed} m/s, in the image", of, lambda e: e.image_heading_deg, "deg", paper=paper
-            ),
-        ]
+            _mean(f"heading in rows at {speed} m/s, in the image", of, lambda e: e.image_heading_deg, "deg",
+                  paper=paper, table=_HEADING_TABLE),
+        ]  # fmt: skip
     return tuple(figures)
 
 
 def _mean(
     name: str, results: list[MissionResult], part: Callable[[Evaluation], Deviation | None], unit: str, *,
-    target: float | None = None, paper: float | None = None,
+    target: float | None = None, paper: float | None = None, table: str | None = None,
 ) -> Figure:  # fmt: skip
     """Mean over the runs of each run's mean deviation; a run counts as far as it got."""
     values = [d.mean for r in results if r.evaluation is not None and (d := part(r.evaluation)) is not None]
     value = float(np.mean(values)) if values else None
     return Figure(
         figure=name, value=value, unit=unit, n=len(values), seed=_seed(results), paper=paper, target=target,
-        ok=None if value is None or target is None else value <= target,
+        ok=None if value is None or target is None else value <= target, table=table,
     )  # fmt: skip
 
 
@@ -119,18 +100,13 @@ def _switch_figures(results: list[MissionResult]) -> tuple[Figure, ...]:
     runs = [r for r in results if r.evaluation is not None and r.evaluation.switches]
     switches = [s for r in runs if r.evaluation for s in r.evaluation.switches]
     good = sum(s.seconds is not None for s in switches)
-    low, high = wilson(good, len(switches))
     wrong = sum(len(r.evaluation.wrong_rows) for r in results if r.evaluation)
     lateral = max((s.lateral_m for s in switches if s.lateral_m is not None), default=None)
     seconds = max((s.seconds for s in switches if s.seconds is not None), default=None)
     entries = [e for r in results if r.evaluation for e in r.evaluation.entry_errors]
-    share = good / len(switches) if switches else None
     return (
-        Figure(
-            figure="mode switches followed by a command on the new source", value=share, unit="share",
-            n=len(switches), seed=_seed(runs), low=low, high=high, target=1.0,
-            ok=None if share is None else share >= 1.0,
-        ),
+        share("mode switches followed by a command on the new source", good, len(switches), seed=_seed(runs),
+              at_least=1.0),
         _largest("largest lateral error within 2 m of a switch", lateral, "m", len(switches), 0.15, _seed(runs)),
         _largest("longest time from trigger to first command", seconds, "s", len(switches), 1.0, _seed(runs)),
         _largest("largest distance from the true centre line at an entrance", max(entries, default=None), "m",

@@ -13,11 +13,10 @@ from navcore.bench.no_row_frames import FalseLines, NoRow, count_false_lines
 from navcore.bench.recorded_rows import RecordedRowsParams
 from navcore.bench.row_end_error import end_errors
 from navcore.bench.row_entries import Entries, count_entries
-from navcore.bench.row_stages import StageCount, count_stages
+from navcore.bench.row_stages import StageRows, count_stages
 from navcore.bench.valid_frames import MethodCounts, count_frames
 from navcore.geometry.pinhole import robot_camera
 from navcore.perception.row_perception import RowMethod
-from navcore.sim.orchard import Season
 
 # Difficulty was set on seed 1; below 1000 are those that things are tuned on.
 SEED = 5001
@@ -60,7 +59,7 @@ class RowsResult:
     frames: dict[RowMethod, MethodCounts]
     false_lines: dict[RowMethod, dict[NoRow, FalseLines]]
     entries: dict[RowMethod, Entries]
-    stages: dict[RowMethod, dict[Season, StageCount]]
+    stages: dict[RowMethod, StageRows]
     end_errors: NDArray[np.float64]
     times: dict[str, FitTime]
 

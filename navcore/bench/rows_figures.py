@@ -2,43 +2,29 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 
-from navcore.bench.mission_figures import Figure
+from navcore.bench import paper_a
+from navcore.bench.figure import Figure, share
 from navcore.bench.no_row_frames import NoRow
 from navcore.bench.row_end_error import AT_M
+from navcore.bench.row_stages import whole
 from navcore.bench.rows import PUBLISHED_BEST, SEED, RowsResult
-from navcore.bench.valid_frames import LAST_M, wilson
-from navcore.perception.row_perception import RowMethod
-from navcore.sim.orchard import Season
+from navcore.bench.rows_by_row import OURS, figures_by_row
+from navcore.bench.valid_frames import LAST_M
 
-OURS = RowMethod.CORRIDOR
-# Paper A, 3.1.3 (valid frames) and 3.1.4 (centre lines that are right).
-_PAPER_VALID = {RowMethod.LEAST_SQUARES: 0.8031, RowMethod.RANSAC: 0.9166, RowMethod.TEMPORAL_RANSAC: 0.9724}
-_PAPER_STAGES = {Season.BUDDING: 0.9437, Season.GROWING: 0.9269, Season.MATURING: 0.9228}
 _WANTED_FIT_US, _WANTED_END_M = 25.0, 0.5
+_share = partial(share, seed=SEED)
 
 
 def rows_figures(result: RowsResult) -> tuple[Figure, ...]:
-    """Those of paper A first."""
+    """Those of paper A first, its rows one by one at the end."""
     return (
         *_valid_figures(result), *_stage_figures(result), *_false_figures(result), _abstained(result),
         _end_figure(result), *_entry_figures(result), *_time_figures(result),
-    )  # fmt: skip
-
-
-def _share(
-    figure: str, part: int, whole: int, *, paper: float | None = None, baseline: float | None = None,
-    at_least: float | None = None, at_most: float | None = None,
-) -> Figure:  # fmt: skip
-    value = part / whole if whole else None
-    low, high = wilson(part, whole)
-    met = None
-    if value is not None and (at_least is not None or at_most is not None):
-        met = value >= at_least if at_least is not None else value <= (at_most or 0.0)
-    return Figure(
-        figure=figure, value=value, unit="share", n=whole, seed=SEED, low=low, high=high, paper=paper,
-        baseline=baseline, target=at_least if at_least is not None else at_most, ok=met,
+        *figures_by_row(result),
     )  # fmt: skip
 
 
@@ -46,9 +32,10 @@ def _valid_figures(result: RowsResult) -> list[Figure]:
     """By the paper's rule for each, then against the truth, in the row and near its end."""
     best, ours = result.frames[PUBLISHED_BEST], result.frames[OURS]
     figures = [
-        _share(f"valid frames by the paper's rule, {m}", c.row.valid, c.row.frames, paper=_PAPER_VALID.get(m))
+        _share(f"valid frames by the paper's rule, {m}", c.row.valid, c.row.frames, paper=paper_a.VALID.get(m),
+               table="Paper A, Table 8: valid row lines")
         for m, c in result.frames.items()
-    ]
+    ]  # fmt: skip
     row, last = (f"lines on the true ones{where}, ours" for where in ("", f" in the last {LAST_M:.0f} m"))
     figures.append(
         _share(row, ours.row.true, ours.row.frames, baseline=best.row.true / best.row.frames, at_least=0.995)
@@ -61,11 +48,11 @@ def _valid_figures(result: RowsResult) -> list[Figure]:
 
 def _stage_figures(result: RowsResult) -> list[Figure]:
     figures = []
-    for stage, ours in result.stages[OURS].items():
-        other = result.stages[PUBLISHED_BEST][stage]
+    for stage, rows in result.stages[OURS].items():
+        ours, other = whole(rows), whole(result.stages[PUBLISHED_BEST][stage])
         figures.append(
-            _share(f"centre line right, {stage}, ours", ours.right, ours.frames, paper=_PAPER_STAGES[stage],
-                   baseline=other.right / other.frames, at_least=0.99)
+            _share(f"centre line right, {stage}, ours", ours.right, ours.frames, paper=paper_a.CENTRES[stage],
+                   baseline=other.right / other.frames, at_least=0.99, table="Paper A, Table 11: right centre lines")
         )  # fmt: skip
     return figures
 

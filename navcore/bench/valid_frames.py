@@ -22,6 +22,8 @@ from navcore.perception.row_perception import RowMethod, RowPerceptionParams, ro
 PUBLISHED_FILTER = GeometricFilterParams(k1=0.28, k2=0.72, k3=0.0, k4=1.0, k5=0.57)
 # The last metres of a row, in which less and less of it is in sight.
 LAST_M = 5.0
+# Rows of the published tables.
+ROWS = 4
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -64,10 +66,23 @@ class FrameCounts:
 
 @dataclass(frozen=True, slots=True)
 class MethodCounts:
-    """Frames further than `LAST_M` from the row's end, and those after it."""
+    """Frames further than `LAST_M` from the row's end, and those after it; `rows`: the former, by row.
+
+    Paper A drove in `ROWS` rows: our drives take turns.
+    """
 
     row: FrameCounts
     last: FrameCounts
+    rows: tuple[FrameCounts, ...]
+
+    @staticmethod
+    def zero() -> MethodCounts:
+        """Nothing counted yet."""
+        return MethodCounts(FrameCounts(), FrameCounts(), tuple(FrameCounts() for _ in range(ROWS)))
+
+    def parts(self, frame: RecordedFrame, drive: int) -> tuple[FrameCounts, ...]:
+        """Where a frame of that drive counts."""
+        return (self.row, self.rows[drive % ROWS]) if frame.to_end > LAST_M else (self.last,)
 
 
 def wilson(successes: int, trials: int, z: float = 1.96) -> tuple[float, float]:
@@ -85,7 +100,7 @@ def count_frames(
 ) -> MethodCounts:  # fmt: skip
     """One method over `drives` recorded drives, the same for every method of that seed."""
     params = RowPerceptionParams(method=method, filter=PUBLISHED_FILTER)
-    counts, limit = MethodCounts(FrameCounts(), FrameCounts()), rule.at_width(camera.width_px)
+    counts, limit = MethodCounts.zero(), rule.at_width(camera.width_px)
     for drive in range(drives):
         fitter = row_line_fitter(camera, params)
         for frame in record_rows(camera, rows, np.random.default_rng((seed, drive))):
@@ -93,11 +108,9 @@ def count_frames(
                 break
             corners = candidates(frame, camera, params)
             lines = fitter.fit(corners, RowCue(motion=frame.motion))
-            part = counts.row if frame.to_end > LAST_M else counts.last
-            part.add(
-                valid=is_valid(lines, corners, frame, limit), true=is_true(lines, frame, camera, limit),
-                abstained=lines.left is None or lines.right is None,
-            )  # fmt: skip
+            valid, true = is_valid(lines, corners, frame, limit), is_true(lines, frame, camera, limit)
+            for part in counts.parts(frame, drive):
+                part.add(valid=valid, true=true, abstained=lines.left is None or lines.right is None)
     return counts
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import typer
 
-from navcore.cli import dataset, evaluate, replay, run, score, see, train
+from navcore.cli import dataset, evaluate, replay, report, run, score, see, train
 from navcore.cli.bench import bench_app
 from navcore.cli.decode import decode_app
 
@@ -20,6 +20,7 @@ run.register(app)
 replay.register(app)
 see.register(app)
 score.register(app)
+report.register(app)
 
 
 @app.callback()

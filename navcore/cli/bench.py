@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 if TYPE_CHECKING:
+    from navcore.bench.figure import Figure
     from navcore.bench.loop import LoopParams
-    from navcore.bench.mission_figures import Figure
     from navcore.bench.mission_result import MissionResult
 
 BAD_INPUT = 2
@@ -164,7 +164,7 @@ def _report(figures: tuple[Figure, ...], commit: str, machine: str) -> str:
 
 
 def _lines(figures: tuple[Figure, ...], commit: str, machine: str) -> str:
-    return "\n".join([f"commit {commit}, {machine}", "", *map(_row, figures)])
+    return "\n".join([f"commit {commit}, {machine}", "", *(_row(figure) for figure in figures if not figure.detail)])
 
 
 def _row(f: Figure) -> str:

@@ -7,8 +7,8 @@ import math
 import numpy as np
 import pytest
 
+from navcore.bench.figure import Figure
 from navcore.bench.fit_time import fit_times
-from navcore.bench.mission_figures import Figure
 from navcore.bench.no_row_frames import NoRow, count_false_lines
 from navcore.bench.row_end_error import end_errors
 from navcore.bench.row_entries import count_entries
