@@ -58,10 +58,10 @@ def verdict(figure: MadeFigure) -> str:
     return "" if figure.ok is None else "met" if figure.ok else "missed"
 
 
-def _order(title: str) -> tuple[bool, str, int]:
-    """By paper, and Table 10 after Table 9."""
-    paper, _, number = title.partition(":")[0].rpartition(" ")
-    return (title == NO_TABLE, paper, int(number) if number.isdigit() else 0)
+def _order(title: str) -> tuple[bool, bool, str, int]:
+    """By paper, and Table 10 after Table 9; then our own tables."""
+    name, _, number = title.partition(":")[0].rpartition(" ")
+    return (title == NO_TABLE, not number.isdigit(), name, int(number) if number.isdigit() else 0)
 
 
 def _plots(figures: list[MadeFigure]) -> tuple[Plot, ...]:

@@ -8,13 +8,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from navcore.bench.ablations import ablations
 from navcore.bench.fit_time import FitTime, fit_times
 from navcore.bench.no_row_frames import FalseLines, NoRow, count_false_lines
 from navcore.bench.recorded_rows import RecordedRowsParams
 from navcore.bench.row_end_error import end_errors
 from navcore.bench.row_entries import Entries, count_entries
 from navcore.bench.row_stages import StageRows, count_stages
-from navcore.bench.valid_frames import MethodCounts, count_frames
+from navcore.bench.valid_frames import MethodCounts, count_frames, method_fitter
 from navcore.geometry.pinhole import robot_camera
 from navcore.perception.row_perception import RowMethod
 
@@ -54,9 +55,10 @@ QUICK = RowsBenchParams(
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RowsResult:
-    """What was counted and measured, by method where several took part."""
+    """What was counted and measured, by method where several took part; `ablations` by what ours went without."""
 
     frames: dict[RowMethod, MethodCounts]
+    ablations: dict[str, MethodCounts]
     false_lines: dict[RowMethod, dict[NoRow, FalseLines]]
     entries: dict[RowMethod, Entries]
     stages: dict[RowMethod, StageRows]
@@ -68,8 +70,14 @@ def run_bench(params: RowsBenchParams, progress: Callable[[str], None]) -> RowsR
     """All parts, one after the other; `progress` is told which."""
     camera, p = robot_camera(), params
     rows = RecordedRowsParams(frames=330)
-    progress(f"{p.drives} recorded drives, four methods")
-    frames = {m: count_frames(m, camera, drives=p.drives, seed=SEED, rows=rows) for m in RowMethod}
+    progress(f"{p.drives} recorded drives, four methods and ours without its parts")
+    frames = {
+        m: count_frames(method_fitter(m, camera), camera, drives=p.drives, seed=SEED, rows=rows) for m in RowMethod
+    }
+    ablated = {
+        name: count_frames(new, camera, drives=p.drives, seed=SEED, rows=rows)
+        for name, new in ablations(camera).items()
+    }
     progress(f"places without a row on {p.farms} farms")
     false_lines = count_false_lines(camera, BOTH, farms=p.farms, frames=p.frames, seed=SEED)
     progress(f"{p.entry_farms * p.entries} entrances")
@@ -81,5 +89,11 @@ def run_bench(params: RowsBenchParams, progress: Callable[[str], None]) -> RowsR
     progress("time of a fit")
     times = fit_times(rounds=p.rounds, seed=SEED)
     return RowsResult(
-        frames=frames, false_lines=false_lines, entries=entries, stages=stages, end_errors=ends, times=times
+        frames=frames,
+        ablations=ablated,
+        false_lines=false_lines,
+        entries=entries,
+        stages=stages,
+        end_errors=ends,
+        times=times,
     )

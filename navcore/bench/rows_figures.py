@@ -16,14 +16,15 @@ from navcore.bench.rows_by_row import OURS, figures_by_row
 from navcore.bench.valid_frames import LAST_M
 
 _WANTED_FIT_US, _WANTED_END_M = 25.0, 0.5
+_LAST = f" in the last {LAST_M:.0f} m"
 _share = partial(share, seed=SEED)
 
 
 def rows_figures(result: RowsResult) -> tuple[Figure, ...]:
     """Those of paper A first, its rows one by one at the end."""
     return (
-        *_valid_figures(result), *_stage_figures(result), *_false_figures(result), _abstained(result),
-        _end_figure(result), *_entry_figures(result), *_time_figures(result),
+        *_valid_figures(result), *_ablation_figures(result), *_stage_figures(result), *_false_figures(result),
+        _abstained(result), _end_figure(result), *_entry_figures(result), *_time_figures(result),
         *figures_by_row(result),
     )  # fmt: skip
 
@@ -36,13 +37,25 @@ def _valid_figures(result: RowsResult) -> list[Figure]:
                table="Paper A, Table 8: valid row lines")
         for m, c in result.frames.items()
     ]  # fmt: skip
-    row, last = (f"lines on the true ones{where}, ours" for where in ("", f" in the last {LAST_M:.0f} m"))
+    row, last = (f"lines on the true ones{where}, ours" for where in ("", _LAST))
     figures.append(
         _share(row, ours.row.true, ours.row.frames, baseline=best.row.true / best.row.frames, at_least=0.995)
     )
     figures.append(
         _share(last, ours.last.true, ours.last.frames, baseline=best.last.true / best.last.frames, at_least=0.99)
     )
+    return figures
+
+
+def _ablation_figures(result: RowsResult) -> list[Figure]:
+    """What each part of ours is worth: lines on the true ones with it (as baseline) and without."""
+    ours, figures = result.frames[OURS], []
+    for name, counts in result.ablations.items():
+        for where, part, whole_fit in (("", counts.row, ours.row), (_LAST, counts.last, ours.last)):
+            figures.append(
+                _share(f"lines on the true ones{where}, ours {name}", part.true, part.frames,
+                       baseline=whole_fit.true / whole_fit.frames, table="Ablations: baseline is ours, whole")
+            )  # fmt: skip
     return figures
 
 

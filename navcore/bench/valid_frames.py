@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -15,9 +16,11 @@ from navcore.geometry.pinhole import PinholeCamera
 from navcore.perception.corner_points import CornerPoints, corner_points
 from navcore.perception.geometric_filter import GeometricFilterParams, geometric_filter
 from navcore.perception.image_lines import image_line
-from navcore.perception.row_lines import RowCue, RowLines
+from navcore.perception.row_lines import RowCue, RowLineFitter, RowLines
 from navcore.perception.row_perception import RowMethod, RowPerceptionParams, row_line_fitter
 
+# Makes a fitter that has seen nothing yet.
+NewFitter = Callable[[], RowLineFitter]
 # The published filter, tuned to our camera: beyond 5 m a corridor of 3 m fills the middle of the picture.
 PUBLISHED_FILTER = GeometricFilterParams(k1=0.28, k2=0.72, k3=0.0, k4=1.0, k5=0.57)
 # The last metres of a row, in which less and less of it is in sight.
@@ -94,19 +97,23 @@ def wilson(successes: int, trials: int, z: float = 1.96) -> tuple[float, float]:
     return max(0.0, (middle - half) / (1 + z * z / n)), min(1.0, (middle + half) / (1 + z * z / n))
 
 
+def method_fitter(method: RowMethod, camera: PinholeCamera) -> NewFitter:
+    """New fitters of one method."""
+    return lambda: row_line_fitter(camera, RowPerceptionParams(method=method))
+
+
 def count_frames(
-    method: RowMethod, camera: PinholeCamera, *, drives: int, seed: int,
+    new_fitter: NewFitter, camera: PinholeCamera, *, drives: int, seed: int,
     rows: RecordedRowsParams = RecordedRowsParams(), rule: ValidRule = ValidRule(),
 ) -> MethodCounts:  # fmt: skip
-    """One method over `drives` recorded drives, the same for every method of that seed."""
-    params = RowPerceptionParams(method=method, filter=PUBLISHED_FILTER)
+    """One fitter over `drives` recorded drives, the same for every fitter of that seed."""
     counts, limit = MethodCounts.zero(), rule.at_width(camera.width_px)
     for drive in range(drives):
-        fitter = row_line_fitter(camera, params)
+        fitter = new_fitter()
         for frame in record_rows(camera, rows, np.random.default_rng((seed, drive))):
             if frame.to_end <= 0.0:
                 break
-            corners = candidates(frame, camera, params)
+            corners = candidates(frame, camera)
             lines = fitter.fit(corners, RowCue(motion=frame.motion))
             valid, true = is_valid(lines, corners, frame, limit), is_true(lines, frame, camera, limit)
             for part in counts.parts(frame, drive):
@@ -114,11 +121,11 @@ def count_frames(
     return counts
 
 
-def candidates(frame: RecordedFrame, camera: PinholeCamera, params: RowPerceptionParams) -> CornerPoints:
-    """The candidate points of a frame, as the chain makes them."""
+def candidates(frame: RecordedFrame, camera: PinholeCamera) -> CornerPoints:
+    """The candidate points of a frame, as the published chain makes them."""
     corners = corner_points(frame.objects, camera.width_px, camera.height_px)
     mask = geometric_filter(
-        corners.points, width_px=camera.width_px, height_px=camera.height_px, params=params.filter
+        corners.points, width_px=camera.width_px, height_px=camera.height_px, params=PUBLISHED_FILTER
     )  # fmt: skip
     return corners.only(mask)
 

@@ -75,7 +75,6 @@ class CorridorFit:
         self._camera = camera
         self._params = params
         self._mount = (camera.x, camera.y, camera.z)
-        self._R_driving_camera = camera.R_base_camera()
         scale = camera.width_px / 640 / camera.fx
         self._noise = (params.foot_u_px * scale, params.foot_v_px * scale, params.plant_std, params.curve)
 
@@ -104,12 +103,8 @@ class CorridorFit:
 
     def _rays(self, feet: Floats, furthest: float, most: int) -> tuple[Floats, Ints]:
         """Rays (N, 2) as (s, t), and the indices of the nearest of those that come down within range."""
-        c = self._camera
-        uv = np.asarray(feet, dtype=np.float64).reshape(-1, 2)
-        optical = np.column_stack(((uv[:, 0] - c.cx) / c.fx, (uv[:, 1] - c.cy) / c.fy, np.ones(len(uv))))
-        d = optical @ self._R_driving_camera.T
-        rays = np.column_stack((d[:, 1], -d[:, 2])) / np.maximum(d[:, :1], 1e-3)
-        in_range = np.flatnonzero((d[:, 0] > 1e-3) & (rays[:, 1] > c.z / furthest))
+        rays = foot_rays(self._camera, feet)
+        in_range = np.flatnonzero(np.isfinite(rays[:, 1]) & (rays[:, 1] > self._camera.z / furthest))
         nearest = np.argsort(-rays[in_range, 1], kind="stable")[:most]
         return rays, in_range[nearest]
 
@@ -119,3 +114,14 @@ class CorridorFit:
         down = (s + rays[:, 1] * c) / ahead
         reach = np.where(down > 1e-3, camera.z / np.maximum(down, 1e-3), np.nan)
         return np.column_stack((camera.x + reach, camera.y + reach * rays[:, 0] / ahead))
+
+
+def foot_rays(camera: PinholeCamera, feet: Floats) -> Floats:
+    """Rays (1, s, -t) in the driving frame, as (s, t), (N, 2), of pixels (N, 2); NaN for those not ahead."""
+    uv = np.asarray(feet, dtype=np.float64).reshape(-1, 2)
+    optical = np.column_stack(
+        ((uv[:, 0] - camera.cx) / camera.fx, (uv[:, 1] - camera.cy) / camera.fy, np.ones(len(uv)))
+    )
+    d = optical @ camera.R_base_camera().T
+    ahead = np.where(d[:, :1] > 1e-3, d[:, :1], np.nan)
+    return np.asarray(np.column_stack((d[:, 1], -d[:, 2])) / ahead, dtype=np.float64)

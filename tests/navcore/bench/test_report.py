@@ -22,6 +22,7 @@ from navcore.errors import InputError
 FIGURES = (
     share("centre lines", 99, 100, seed=1, paper=0.93, at_least=0.95, table="Paper A, Table 11: centre lines"),
     share("rows <b>", 80, 100, seed=1, paper=0.9, baseline=0.85, at_least=0.95, table="Paper A, Table 8: rows"),
+    share("without it", 70, 100, seed=1, baseline=0.8, table="Ablations: baseline is ours, whole"),
     Figure(figure="error", value=0.3, unit="m", n=4, seed=None, target=0.5, ok=True),
     Figure(figure="never met", value=None, unit="m", n=0, seed=None, target=0.5),
 )
@@ -71,7 +72,10 @@ def test_what_a_bench_prints_is_read_again(file: FigureFile) -> None:
 
 def test_tables_come_in_the_papers_order_and_what_they_do_not_report_last(file: FigureFile) -> None:
     titles = [section.title for section in sections(file)]
-    assert titles == ["Paper A, Table 8: rows", "Paper A, Table 11: centre lines", "Not reported in the papers"]
+    assert titles == [
+        "Paper A, Table 8: rows", "Paper A, Table 11: centre lines", "Ablations: baseline is ours, whole",
+        "Not reported in the papers",
+    ]  # fmt: skip
 
 
 def test_the_page_shows_each_figure_with_all_that_it_stands_beside(file: FigureFile) -> None:
@@ -99,7 +103,7 @@ def test_a_page_needs_nothing_from_anywhere(file: FigureFile) -> None:
 def test_markdown_holds_one_line_a_figure(file: FigureFile) -> None:
     lines = markdown_report([file]).splitlines()
     assert [line.split(" | ")[0] for line in lines if line.startswith("| ") and "interval" not in line] == [
-        "| rows <b>", "| centre lines", "| error", "| never met",
+        "| rows <b>", "| centre lines", "| without it", "| error", "| never met",
     ]  # fmt: skip
 
 

@@ -7,13 +7,16 @@ import math
 import numpy as np
 import pytest
 
+from navcore.bench.ablations import ablations
 from navcore.bench.figure import Figure
 from navcore.bench.fit_time import fit_times
 from navcore.bench.no_row_frames import NoRow, count_false_lines
+from navcore.bench.recorded_rows import RecordedRowsParams
 from navcore.bench.row_end_error import end_errors
 from navcore.bench.row_entries import count_entries
 from navcore.bench.rows import RowsBenchParams, run_bench
 from navcore.bench.rows_figures import rows_figures
+from navcore.bench.valid_frames import count_frames, method_fitter
 from navcore.geometry.pinhole import robot_camera
 from navcore.perception.row_perception import RowMethod
 
@@ -37,6 +40,22 @@ def test_what_is_wanted_is_judged_and_stands_beside_the_published_method(figures
     assert len(judged) == 14
     assert all(one.ok is not None for one in judged)
     assert all(one.baseline is not None for one in judged if not one.figure.startswith("error of the row's end"))
+
+
+@pytest.mark.parametrize("name", sorted(ablations(CAMERA)))
+def test_a_fit_without_one_of_its_parts_still_finds_the_lines_of_a_clean_picture(name: str) -> None:
+    clean = RecordedRowsParams(
+        frames=20, drop_out=0.0, burst=0.0, false_boxes=0.0, edge_px=0.0, foot_lift=0.0, scatter=0.0, pitch_deg=0.0
+    )
+    counts = count_frames(ablations(CAMERA)[name], CAMERA, drives=1, seed=1, rows=clean).row
+    assert (counts.true, counts.abstained) == (20, 0)
+
+
+def test_each_part_of_the_fit_is_worth_something_in_bad_pictures() -> None:
+    whole = count_frames(method_fitter(RowMethod.CORRIDOR, CAMERA), CAMERA, drives=1, seed=7).row
+    alone = count_frames(ablations(CAMERA)["without tracking and joint fit"], CAMERA, drives=1, seed=7).row
+    assert alone.frames == whole.frames
+    assert alone.true < whole.true
 
 
 def test_lines_are_counted_where_there_is_no_row_and_only_there() -> None:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from navcore.bench.recorded_rows import RecordedRowsParams, record_rows
-from navcore.bench.valid_frames import LAST_M, ValidRule, count_frames, is_true, wilson
+from navcore.bench.valid_frames import LAST_M, ValidRule, count_frames, is_true, method_fitter, wilson
 from navcore.geometry.pinhole import robot_camera
 from navcore.perception.image_lines import image_line
 from navcore.perception.row_lines import RowLines
@@ -28,7 +28,7 @@ def test_the_same_seed_records_the_same_rows() -> None:
 
 def test_the_published_fits_rank_as_published() -> None:
     """Set once: about 80, 92 and 97 % (here with 400 frames, so within three points or so)."""
-    counts = {m: count_frames(m, CAMERA, drives=2, seed=1).row for m in RowMethod}
+    counts = {m: count_frames(method_fitter(m, CAMERA), CAMERA, drives=2, seed=1).row for m in RowMethod}
     rates = {method: count.valid / count.frames for method, count in counts.items()}
     assert rates[RowMethod.LEAST_SQUARES] == pytest.approx(0.82, abs=0.06)
     assert rates[RowMethod.RANSAC] == pytest.approx(0.91, abs=0.05)
@@ -40,13 +40,13 @@ def test_without_faults_every_frame_is_valid() -> None:
     clean = RecordedRowsParams(
         frames=40, drop_out=0.0, burst=0.0, false_boxes=0.0, edge_px=0.0, foot_lift=0.0, scatter=0.0, pitch_deg=0.0
     )
-    counts = count_frames(RowMethod.CORRIDOR, CAMERA, drives=1, seed=1, rows=clean).row
+    counts = count_frames(method_fitter(RowMethod.CORRIDOR, CAMERA), CAMERA, drives=1, seed=1, rows=clean).row
     assert (counts.valid, counts.true, counts.abstained) == (40, 40, 0)
 
 
 def test_the_last_metres_of_a_row_are_counted_apart_and_nothing_beyond_them() -> None:
     params = RecordedRowsParams(frames=330, length=18.0)
-    counts = count_frames(RowMethod.CORRIDOR, CAMERA, drives=1, seed=3, rows=params)
+    counts = count_frames(method_fitter(RowMethod.CORRIDOR, CAMERA), CAMERA, drives=1, seed=3, rows=params)
     assert counts.last.frames * 0.1 * params.speed == pytest.approx(LAST_M, abs=0.2)  # m
     assert counts.row.frames + counts.last.frames < 330
     assert counts.last.abstained > 0  # of the last plants nothing is in sight any more
