@@ -16,7 +16,7 @@ from navcore.messages.camera import (
     ObjectKind,
     RowObservation,
 )
-from navcore.messages.mission_plan import MissionPlan, PathSegment, Point, SegmentKind
+from navcore.messages.mission_plan import USUAL_WIDTH, MissionPlan, PathSegment, Point, SegmentKind
 from navcore.messages.recorder import RecorderStatus
 from navcore.messages.request import LinkLossPolicy, Reply, Request, RequestKind
 from navcore.messages.sensing import FixQuality, GnssFix, ImuSample
@@ -25,6 +25,7 @@ from navcore.messages.status import ActiveEvent, ModeSwitch, NavMode, NavStatus,
 from navcore.messages.tick import Decision, NavInputs, NavPrelude
 
 __all__ = [
+    "USUAL_WIDTH",
     "ActiveEvent",
     "CameraName",
     "CameraRequest",

@@ -7,6 +7,9 @@ from enum import StrEnum
 
 Point = tuple[float, float]
 
+# Corridor width where none is drawn, m.
+USUAL_WIDTH = 3.0
+
 
 class SegmentKind(StrEnum):
     """What part of a mission a stretch of the path is."""
@@ -40,6 +43,11 @@ class PathSegment:
     corridor_width: float | None = None
     row_start: Point | None = None
     row_end: Point | None = None
+
+    @property
+    def width(self) -> float:
+        """Of the corridor, m, the usual one where none is drawn."""
+        return self.corridor_width or USUAL_WIDTH
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

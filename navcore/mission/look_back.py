@@ -18,9 +18,6 @@ from navcore.mission.evidence import RowEvidence, RowEvidenceParams
 from navcore.mission.mode_selector import CARRIED
 from navcore.mission.route import row_length
 
-# Corridor width where none is drawn, m.
-USUAL_WIDTH = 3.0
-
 
 @dataclass(frozen=True, slots=True)
 class LeftRow:
@@ -36,7 +33,7 @@ class LeftRow:
         line = RowLine.of(segment)
         if segment is None or line is None:
             return None
-        return LeftRow(line, segment.corridor_width or USUAL_WIDTH, row_length(segment))
+        return LeftRow(line, segment.width, row_length(segment))
 
 
 class LookBack:

@@ -11,7 +11,7 @@ from navcore.localization.row_filter import look_noise
 from navcore.localization.row_line import RowLine
 from navcore.messages import CameraName, MissionPlan, ModeSwitch, NavMode, PathSegment, RowObservation, SegmentKind
 from navcore.mission.evidence import NO_IDEA, Doubt, RowEvidence
-from navcore.mission.look_back import USUAL_WIDTH, LeftRow, LookBack
+from navcore.mission.look_back import LeftRow, LookBack
 from navcore.mission.mode_selector import ALONG_ROW, CARRIED, ON_CAMERA, ModeFacts, select_mode, start_reason
 from navcore.mission.pilot_params import PilotParams
 from navcore.mission.position import Position
@@ -133,7 +133,7 @@ class Pilot:
             return
         expected = self._expected(T_odom_drive)
         doubt = Doubt(*self.anchor.departed_stds) if self.mode is NavMode.HEADLAND else NO_IDEA
-        if not self.row.judge(seen, row, expected, segment.corridor_width or USUAL_WIDTH, doubt):
+        if not self.row.judge(seen, row, expected, segment.width, doubt):
             return
         turned_to = self.mode is NavMode.HEADLAND and self._turned_to_row(row, T_odom_drive)
         if (self.mode in ON_CAMERA or turned_to) and seen.offset is not None and seen.heading is not None:

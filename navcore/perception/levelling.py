@@ -5,10 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from navcore.messages import RowObservation
-
-# Width assumed where none is known, m: it hardly matters to the shift.
-USUAL_WIDTH = 3.0
+from navcore.messages import USUAL_WIDTH, RowObservation
 
 
 def upright_offset(offset: float, width: float, height: float, roll: float) -> float:

@@ -6,9 +6,9 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from navcore.geometry.se2 import SE2
-from navcore.messages import CameraName, CameraRequest, CameraView, RowObservation
+from navcore.messages import USUAL_WIDTH, CameraName, CameraRequest, CameraView, RowObservation
 from navcore.perception.detector import Image
-from navcore.perception.levelling import USUAL_WIDTH, leaning_offset, levelled
+from navcore.perception.levelling import leaning_offset, levelled
 from navcore.perception.row_lines import RowPrior
 from navcore.perception.row_perception import RowPerception
 
