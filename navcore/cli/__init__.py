@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import typer
 
-from navcore.cli import dataset, evaluate, replay, report, run, score, see, train
+from navcore.cli import dataset, evaluate, export, replay, report, run, score, see, train
 from navcore.cli.bench import bench_app
 from navcore.cli.decode import decode_app
 
@@ -16,6 +16,7 @@ app.add_typer(decode_app, name="decode")
 dataset.register(app)
 evaluate.register(app)
 train.register(app)
+export.register(app)
 run.register(app)
 replay.register(app)
 see.register(app)

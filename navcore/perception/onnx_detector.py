@@ -50,6 +50,10 @@ class OnnxDetector:
         found, confidence, kinds = decode(peaks[0], boxes[0], self._stride, self._decoding)
         return detected_objects(found, confidence, kinds, scale=1 / scale, width_px=width, height_px=height)
 
+    def inputs(self, image: Image) -> dict[str, NDArray[np.float32]]:
+        """What the network is given for a picture, by its input's name."""
+        return {self._input: self._blob(fit_picture(image, self._height, self._width)[0])}
+
     def _blob(self, fitted: Image) -> NDArray[np.float32]:
         """The picture as the network wants it: in the upper left corner, 0 to 1."""
         h, w = fitted.shape[:2]

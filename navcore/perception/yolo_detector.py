@@ -63,6 +63,10 @@ class YoloDetector:
         boxes = boxes - (left, top, left, top)
         return detected_objects(boxes, confidence, kinds, scale=1 / scale, width_px=width, height_px=height)
 
+    def inputs(self, image: Image) -> dict[str, Singles]:
+        """What the network is given for a picture, by its input's name."""
+        return {self._input: self._letterbox(fit_picture(image, self._height, self._width)[0])[0]}
+
     def _letterbox(self, fitted: Image) -> tuple[Singles, tuple[int, int]]:
         """The picture as YOLO wants it: red, green, blue, 0 to 1, in the middle; and where that begins."""
         h, w = fitted.shape[:2]

@@ -6,13 +6,12 @@ from dataclasses import replace
 from pathlib import Path
 
 from navcore.perception.box_decoding import DecodingParams
-from navcore.perception.detector import Detector
 from navcore.perception.onnx_detector import WEIGHTS, OnnxDetector, OnnxDetectorParams, open_model
 from navcore.perception.yolo_detector import PUBLISHED, YoloDetector, YoloParams
 from navcore.training.evaluate import LOW_THRESHOLD
 
 
-def scored_detector(weights: Path | None) -> Detector:
+def scored_detector(weights: Path | None) -> OnnxDetector | YoloDetector:
     """The shipped one for None; of one output: a YOLO trained on trunks and posts, as published.
 
     Raises ModelError for a file that is no detector.
