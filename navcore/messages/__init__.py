@@ -6,6 +6,7 @@ u right, v down. Angles are radians in (-pi, pi], counter-clockwise from east.
 """
 
 from navcore.messages.camera import (
+    CameraMount,
     CameraName,
     CameraRequest,
     CameraView,
@@ -27,6 +28,7 @@ from navcore.messages.tick import Decision, NavInputs, NavPrelude
 __all__ = [
     "USUAL_WIDTH",
     "ActiveEvent",
+    "CameraMount",
     "CameraName",
     "CameraRequest",
     "CameraView",

@@ -60,6 +60,22 @@ class ImageArea:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class CameraMount:
+    """How a camera is mounted, as the plants tell that it was driven up to; each with its 1-sigma.
+
+    Attributes:
+        pitch: by so much further down than its settings say it looks, the IMU being right, rad.
+        height: above the ground, m; told_height: as its settings say.
+    """
+
+    pitch: float
+    pitch_std: float
+    height: float
+    height_std: float
+    told_height: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class RowObservation:
     """The row ahead as one sensor saw it at `stamp_ns`, in the camera's driving frame.
 
@@ -83,6 +99,7 @@ class RowObservation:
         left_seen, right_seen: this frame's own evidence for each side (False: carried over from earlier frames).
         lean: by so much more than told the camera leans to the side (roll of the driving frame, left side up), rad;
             once every few metres, else None. lean_std: 1-sigma.
+        mount: how the camera is mounted, told together with `lean`.
         image_offset, image_heading: paper A's reading of the image's bisector: lateral deviation of the centre line
             at the look-ahead depth, m, and its angle to the image's vertical, rad; both positive to the left.
     """
@@ -109,6 +126,7 @@ class RowObservation:
     image_heading: float | None = None
     lean: float | None = None
     lean_std: float | None = None
+    mount: CameraMount | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

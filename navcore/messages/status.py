@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import StrEnum
 
+from navcore.messages.camera import CameraMount
 from navcore.messages.sensing import FixQuality
 
 
@@ -90,6 +91,8 @@ class NavStatus:
         pose: that the robot drives by: in a row, by what it sees of it, relative to the row as drawn.
         stop_reason: why the mission was stopped, kept until it goes on or is acknowledged; else empty.
         gnss_pose: by GNSS, wheels and gyro alone; None in older logs too.
+        camera: how the camera that saw a row last is mounted; None before. camera_roll: it leans by so much to the
+            right against the IMU, and its 1-sigma, rad.
     """
 
     stamp_ns: int
@@ -118,3 +121,5 @@ class NavStatus:
     events: tuple[ActiveEvent, ...]
     stop_reason: str = ""
     gnss_pose: PoseEstimate | None = None
+    camera: CameraMount | None = None
+    camera_roll: tuple[float, float] | None = None

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from navcore.chassis.protocol import ChassisState
-from navcore.messages import LinkLossPolicy, NavMode, RunState
+from navcore.messages import CameraMount, LinkLossPolicy, NavMode, RunState
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -25,7 +25,9 @@ class EventParams:
         link_s: time without an operator's page (hazard 20).
         arming_s: longest time for the chassis to obey.
         start_distance: from the robot to the mission's start, and from the path before it was first reached.
-        askew_deg: a camera that leans further against the IMU, and by twice what is doubtful, has been moved.
+        askew_deg: a camera that leans further against the IMU, and by twice what is doubtful, has been moved; so has
+            one that looks further up or down by `pitched_deg`, or stands higher or lower by `raised` m:
+            slipping wheels and feet hidden in grass look like a decimetre.
         battery_low_v: warn and slow (hazard 52). battery_stop_v: stop.
     """
 
@@ -48,6 +50,8 @@ class EventParams:
     arming_s: float = 5.0
     start_distance: float = 3.0
     askew_deg: float = 3.0
+    pitched_deg: float = 2.5
+    raised: float = 0.2
     battery_low_v: float = 23.5
     battery_stop_v: float = 22.0
 
@@ -59,7 +63,7 @@ class EventFacts:
     Ages are None where nothing came; `captured`: the path was reached;
     `entrance`: metres to that of a row which is driven at without being seen; `room`: metres between body and plants
     on the narrower side of a seen one that is near; `askew`: how far the camera leans to the right against the IMU,
-    and its 1-sigma, rad.
+    and its 1-sigma, rad; `mount`: how else it is mounted.
     """
 
     state: RunState
@@ -88,3 +92,4 @@ class EventFacts:
     start_distance: float | None
     waiting_for_gnss: bool
     askew: tuple[float, float]
+    mount: CameraMount | None = None

@@ -5,12 +5,19 @@ The state machine sees effects only. To add a fault, add a line.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
 from navcore.chassis.protocol import ChassisState, ControlMode, GuardState, VehicleState
 from navcore.messages import LinkLossPolicy, NavMode, RunState
+from navcore.mission.camera_events import (
+    askew_words,
+    is_askew,
+    is_pitched,
+    is_raised,
+    pitched_words,
+    raised_words,
+)
 from navcore.mission.event_facts import EventFacts, EventParams
 from navcore.mission.state_machine import MOVING, UNDER_WAY, Effect
 
@@ -179,10 +186,11 @@ EVENTS: tuple[Event, ...] = (
     ),
     _event(
         "camera_askew", "WARN",
-        lambda f, p: f.state in UNDER_WAY and abs(f.askew[0]) > max(math.radians(p.askew_deg), 2.0 * f.askew[1]),
-        lambda f: f"The camera leans {abs(math.degrees(f.askew[0])):.0f} degrees to the "
-        f"{'right' if f.askew[0] > 0.0 else 'left'}: its mount has moved. The robot allows for it; straighten it.",
+        lambda f, p: f.state in UNDER_WAY and is_askew(f, p),
+        askew_words,
     ),
+    _event("camera_pitched", "WARN", lambda f, p: f.state in UNDER_WAY and is_pitched(f, p), pitched_words),
+    _event("camera_raised", "WARN", lambda f, p: f.state in UNDER_WAY and is_raised(f, p), raised_words),
     _event(
         "carried_too_far", "HOLD",
         lambda f, p: _moving(f) and f.mode in (NavMode.ROW_END, NavMode.HEADLAND) and not f.carried <= p.carried,

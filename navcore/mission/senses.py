@@ -10,6 +10,7 @@ from navcore.localization.attitude import Attitude
 from navcore.localization.independent_check import IndependentCheck
 from navcore.localization.pose_filter import PoseFilter
 from navcore.messages import CameraName, FixQuality, NavInputs, PoseEstimate, RowObservation
+from navcore.mission.camera_truth import CameraTruth
 from navcore.mission.evidence import NS, GnssEvidence
 
 STANDING_V = 0.03
@@ -29,6 +30,7 @@ class Senses:
         self.chassis: ChassisState | None = None
         self.pose: PoseEstimate | None = None
         self.T_odom_base = SE2(0.0, 0.0, 0.0)
+        self.camera = CameraTruth()
 
     def take(self, inputs: NavInputs) -> None:
         """Predict and correct with all that this tick consumed."""
@@ -55,6 +57,7 @@ class Senses:
         self.attitude.drive(self.T_odom_base.x - before.x, self.T_odom_base.y - before.y, self.T_odom_base.yaw)
         for row in inputs.rows:
             self._take_lean(row)
+            self.camera.take(row)
 
     def _take_lean(self, row: RowObservation) -> None:
         """The rear camera leans to its right where the robot leans to its left."""

@@ -80,6 +80,7 @@ def event_facts(
         start_distance=start_distance,
         waiting_for_gnss=_waits_for_gnss(now),
         askew=s.attitude.mount_roll,
+        mount=s.camera.newest,
     )
 
 

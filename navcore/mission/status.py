@@ -73,4 +73,6 @@ def nav_status(now: Situation, now_ns: int, events: ActiveEvents) -> NavStatus:
         events=events.on,
         stop_reason=events.stop_reason,
         gnss_pose=s.pose,
+        camera=s.camera.newest,
+        camera_roll=s.attitude.mount_roll,
     )

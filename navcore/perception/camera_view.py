@@ -17,7 +17,7 @@ from navcore.messages import (
 )
 from navcore.perception.corner_points import CornerPoints
 from navcore.perception.image_lines import image_line
-from navcore.perception.lean_fit import Lean
+from navcore.perception.lean_watch import Reading
 from navcore.perception.row_bands import row_band
 from navcore.perception.row_lines import GroundRow, RowLines
 from navcore.perception.row_odometry import Driven
@@ -25,7 +25,7 @@ from navcore.perception.row_odometry import Driven
 
 def row_observation(
     stamp_ns: int, name: CameraName, lines: RowLines, ground: GroundRow | str, end: float | None,
-    seen_to: float | None, published: tuple[float, float] | None, lean: Lean | None = None,
+    seen_to: float | None, published: tuple[float, float] | None, reading: Reading | None = None,
     driven: Driven | None = None,
 ) -> RowObservation:  # fmt: skip
     """The row on the ground, or the reason why there is none; `published` is the bisector's reading beside it."""
@@ -34,13 +34,14 @@ def row_observation(
     image_offset, image_heading = published or (None, None)
     offset_std, heading_std = math.sqrt(ground.covariance[0, 0]), math.sqrt(ground.covariance[1, 1])
     correlation = float(ground.covariance[0, 1]) / (offset_std * heading_std)
+    lean, mount = (reading.lean, reading.mount) if reading else (None, None)
     return RowObservation(
         stamp_ns=stamp_ns, camera=name, valid=True, reason="", offset=ground.offset, heading=ground.heading,
         offset_std=offset_std, heading_std=heading_std, correlation=correlation,
         quality=ground.quality, width=ground.width, end_distance=end, seen_to=seen_to,
         objects=len(ground.left_x) + len(ground.right_x), left_seen=lines.left_seen, right_seen=lines.right_seen,
         image_offset=image_offset, image_heading=image_heading, lean=lean.roll if lean else None,
-        lean_std=lean.std if lean else None, driven=driven.metres if driven else None,
+        lean_std=lean.std if lean else None, mount=mount, driven=driven.metres if driven else None,
         driven_since_ns=driven.since_ns if driven else None,
     )  # fmt: skip
 

@@ -56,18 +56,18 @@ def fit_lean(seen: Sightings, height: float, focal_px: float, params: LeanFitPar
 
     `height` above the ground, m; `focal_px` at 640 px width.
     """
-    seen = _passed(seen, params)
+    seen = passed(seen, params)
     lefts, rights = np.unique(seen.plant[seen.left]), np.unique(seen.plant[~seen.left])
     if min(len(lefts), len(rights)) < params.plants:
         return None
-    A, b = _equations(seen, height, focal_px, params)
-    z, information = _robust(A, b, len(seen.x), params)
+    A, b = equations(seen, height, focal_px, params)
+    z, information = solved(A, b, len(seen.x), params)
     k = A.shape[1] - 2
     std = math.sqrt(float(np.linalg.inv(information)[k, k]))
     return Lean(float(z[k]), math.hypot(std, math.radians(params.floor_deg)))
 
 
-def _passed(seen: Sightings, params: LeanFitParams) -> Sightings:
+def passed(seen: Sightings, params: LeanFitParams) -> Sightings:
     """Only the plants that the robot came nearer to."""
     least = np.full(int(seen.plant.max(initial=-1)) + 1, np.inf)
     most = -least
@@ -80,7 +80,7 @@ def _passed(seen: Sightings, params: LeanFitParams) -> Sightings:
     )  # fmt: skip
 
 
-def _equations(seen: Sightings, height: float, focal_px: float, params: LeanFitParams) -> tuple[Floats, Floats]:
+def equations(seen: Sightings, height: float, focal_px: float, params: LeanFitParams) -> tuple[Floats, Floats]:
     """Weighted rows (N + F + 1, P + F + 2) and right side, for places of P plants, pitches of F pictures, lean and
     stretch.
     """
@@ -99,8 +99,8 @@ def _equations(seen: Sightings, height: float, focal_px: float, params: LeanFitP
     return A, b
 
 
-def _robust(A: Floats, b: Floats, n: int, params: LeanFitParams) -> tuple[Floats, Floats]:
-    """Solution and its information; the first `n` equations are reweighted by their residuals."""
+def solved(A: Floats, b: Floats, n: int, params: LeanFitParams) -> tuple[Floats, Floats]:
+    """Solution of A z = b and its information; the first `n` equations are reweighted by their residuals."""
     weight: Floats = np.ones(len(b))
     z: Floats = np.zeros(A.shape[1])
     information: Floats = np.eye(A.shape[1])

@@ -1,12 +1,14 @@
-"""Watches how the camera leans to the side, from metre to metre of a row."""
+"""Watches how the camera leans to the side, and how it is mounted, from metre to metre of a row."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from navcore.geometry.pinhole import PinholeCamera
 from navcore.geometry.se2 import SE2
+from navcore.messages import CameraMount
 from navcore.perception.lean_fit import Lean, LeanFitParams, fit_lean
+from navcore.perception.mount_fit import MountFitParams, fit_mount
 from navcore.perception.plant_sightings import PlantSightings, PlantSightingsParams
 from navcore.perception.row_lines import GroundRow
 
@@ -23,6 +25,15 @@ class LeanWatchParams:
     first_span: float = 2.5
     sightings: PlantSightingsParams = PlantSightingsParams()
     fit: LeanFitParams = LeanFitParams()
+    mount: MountFitParams = MountFitParams()
+
+
+@dataclass(frozen=True, slots=True)
+class Reading:
+    """Of some metres; None where too few plants were passed."""
+
+    lean: Lean | None
+    mount: CameraMount | None
 
 
 class LeanWatch:
@@ -33,25 +44,40 @@ class LeanWatch:
         self._height, self._focal_px = camera.z, camera.fx * 640 / camera.width_px
         self._params = params
         self._seen = PlantSightings(camera.x, params.sightings)
-        self._first = True
+        self._pitched, self._pictures = 0.0, 0
+        self.forget()
 
     def forget(self) -> None:
         """The next picture does not follow the last one."""
-        self._seen.forget()
+        self._begin()
         self._first = True
 
-    def see(self, row: GroundRow | None, motion: SE2 | None, told_roll: float) -> Lean | None:
-        """How much more than `told_roll` the camera leans, rad; None until enough was driven.
+    def see(
+        self, row: GroundRow | None, motion: SE2 | None, *, told_roll: float, told_pitch: float
+    ) -> Reading | None:
+        """How much more than told the camera leans, and how it is mounted; None until enough was driven.
 
-        `motion` as in `RowCue`.
+        `motion` as in `RowCue`; what is told is the IMU's, rad.
         """
         if row is None or motion is None:
             self.forget()
             return None
         self._seen.add(row, motion, told_roll / self._height)
+        self._pitched, self._pictures = self._pitched + row.pitch - told_pitch, self._pictures + 1
         if self._seen.driven < (self._params.first_span if self._first else self._params.span):
             return None
+        reading = self._reading()
         self._first = False
-        lean = fit_lean(self._seen.all(), self._height, self._focal_px, self._params.fit)
+        self._begin()
+        return reading
+
+    def _begin(self) -> None:
         self._seen.forget()
-        return lean
+        self._pitched, self._pictures = 0.0, 0
+
+    def _reading(self) -> Reading:
+        seen, p = self._seen.all(), self._params
+        mount = fit_mount(seen, self._height, self._focal_px, p.fit, p.mount)
+        if mount is not None:
+            mount = replace(mount, pitch=mount.pitch + self._pitched / self._pictures)
+        return Reading(fit_lean(seen, self._height, self._focal_px, p.fit), mount)

@@ -18,7 +18,7 @@ from navcore.perception.detector import Detector, Image, picture_fault
 from navcore.perception.geometric_filter import GeometricFilterParams, geometric_filter
 from navcore.perception.ground_row import GroundRowParams, ground_row
 from navcore.perception.image_lines import driving_camera, image_bisector, looks_back, published_reading
-from navcore.perception.lean_watch import LeanWatch, LeanWatchParams
+from navcore.perception.lean_watch import LeanWatch, LeanWatchParams, Reading
 from navcore.perception.least_squares import LeastSquares
 from navcore.perception.row_bands import filter_region
 from navcore.perception.row_end import RowEnd, RowEndParams, seen_to
@@ -106,12 +106,16 @@ class RowPerception:
         bisector = image_bisector(lines.left, lines.right) if lines.left and lines.right else None
         published = published_reading(bisector, self._camera, self._params.look_ahead) if bisector else None
         shown = None if isinstance(ground, str) else ground
-        lean = self._lean.see(shown, cue.motion, prior.roll if prior else 0.0)
+        reading = self._read_lean(shown, cue)
         driven = self._odometry.see(shown, cue.motion, stamp_ns)
         row = row_observation(
-            stamp_ns, camera_name, lines, fault or ground, end, self._seen_to(ground), published, lean, driven
+            stamp_ns, camera_name, lines, fault or ground, end, self._seen_to(ground), published, reading, driven
         )  # fmt: skip
         return camera_view(self._camera, objects, corners, lines, ground, bisector, row, latency_ms, self._region)
+
+    def _read_lean(self, row: GroundRow | None, cue: RowCue) -> Reading | None:
+        roll, pitch = (cue.prior.roll, cue.prior.pitch or 0.0) if cue.prior else (0.0, 0.0)
+        return self._lean.see(row, cue.motion, told_roll=roll, told_pitch=pitch)
 
     def forget(self) -> None:
         """The next picture does not follow the last one."""

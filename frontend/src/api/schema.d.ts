@@ -647,6 +647,26 @@ export interface components {
             text: string;
         };
         /**
+         * CameraMount
+         * @description How a camera is mounted, as the plants tell that it was driven up to; each with its 1-sigma.
+         *
+         *     Attributes:
+         *         pitch: by so much further down than its settings say it looks, the IMU being right, rad.
+         *         height: above the ground, m; told_height: as its settings say.
+         */
+        CameraMount: {
+            /** Height */
+            height: number;
+            /** Height Std */
+            height_std: number;
+            /** Pitch */
+            pitch: number;
+            /** Pitch Std */
+            pitch_std: number;
+            /** Told Height */
+            told_height: number;
+        };
+        /**
          * CameraName
          * @description The two cameras of paper A's robot.
          * @enum {string}
@@ -1087,10 +1107,18 @@ export interface components {
          *         pose: that the robot drives by: in a row, by what it sees of it, relative to the row as drawn.
          *         stop_reason: why the mission was stopped, kept until it goes on or is acknowledged; else empty.
          *         gnss_pose: by GNSS, wheels and gyro alone; None in older logs too.
+         *         camera: how the camera that saw a row last is mounted; None before. camera_roll: it leans by so much to the
+         *             right against the IMU, and its 1-sigma, rad.
          */
         NavStatus: {
             /** Battery V */
             battery_v: number | null;
+            camera?: components["schemas"]["CameraMount"] | null;
+            /** Camera Roll */
+            camera_roll?: [
+                number,
+                number
+            ] | null;
             /** Events */
             events: components["schemas"]["ActiveEvent"][];
             /** Gnss Age S */
@@ -1455,6 +1483,7 @@ export interface components {
          *         left_seen, right_seen: this frame's own evidence for each side (False: carried over from earlier frames).
          *         lean: by so much more than told the camera leans to the side (roll of the driving frame, left side up), rad;
          *             once every few metres, else None. lean_std: 1-sigma.
+         *         mount: how the camera is mounted, told together with `lean`.
          *         image_offset, image_heading: paper A's reading of the image's bisector: lateral deviation of the centre line
          *             at the look-ahead depth, m, and its angle to the image's vertical, rad; both positive to the left.
          */
@@ -1488,6 +1517,7 @@ export interface components {
              * @default false
              */
             left_seen: boolean;
+            mount?: components["schemas"]["CameraMount"] | null;
             /**
              * Objects
              * @default 0

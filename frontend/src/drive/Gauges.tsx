@@ -24,6 +24,7 @@ export function Gauges() {
       <Gauge name="GNSS" value={s ? fixWords(s.gnss_quality) : "–"} note={s ? gnssNote(s) : ""} tone={gnssTone(s)} />
       <Gauge name="Battery" value={volts(s?.battery_v)} tone={batteryTone(s?.battery_v)} />
       <Gauge name="Guard" value={s?.guard ?? "–"} note={s?.guard_reason} tone={s?.guard === "latched" ? "bad" : undefined} />
+      <Gauge name="Camera" value={s?.camera ? `${centimetres(s.camera.height)} high` : "–"} note={s ? cameraNote(s) : ""} />
       <Gauge name="Mission" value={percent(s?.run_id ? s.progress : null)} note={s?.run_id ? `${metres(s.remaining)} to go` : ""} />
       <Gauge name="Time left" value={duration(s ? timeLeft(s) : null)} />
     </div>
@@ -48,6 +49,16 @@ const lateralTone = (lateral: number | null | undefined): Tone | undefined =>
 function gnssNote({ gnss_age_s, gnss_pose }: NavStatus): string {
   return `position ±${accuracy(positionSigma(gnss_pose?.covariance))}, ${seconds(gnss_age_s)} old`;
 }
+
+/** How the camera is mounted against its settings, by the rows that it has seen. */
+function cameraNote({ camera, camera_roll }: NavStatus): string {
+  if (!camera) return "known after some metres of a row";
+  const pitch = `${offDegrees(camera.pitch)} ${camera.pitch > 0 ? "down" : "up"}`;
+  const roll = camera_roll ? `, ${offDegrees(camera_roll[0] ?? 0)} ${(camera_roll[0] ?? 0) > 0 ? "right" : "left"}` : "";
+  return `${pitch}${roll} of its settings`;
+}
+
+const offDegrees = (rad: number) => degrees(Math.abs(rad));
 
 const gnssTone = (s: NavStatus | null): Tone | undefined => (!s ? undefined : s.gnss_quality === 0 || (s.gnss_age_s ?? 9) > 1 ? "warn" : undefined);
 

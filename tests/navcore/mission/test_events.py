@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from navcore.chassis.protocol import ChassisState, ControlMode, GuardState, VehicleState
-from navcore.messages import LinkLossPolicy, NavMode, RunState
+from navcore.messages import CameraMount, LinkLossPolicy, NavMode, RunState
 from navcore.mission.event_facts import EventFacts, EventParams
 from navcore.mission.events import EVENTS, active_events, effects_of
 from navcore.mission.state_machine import Effect
@@ -20,12 +20,13 @@ CHASSIS = ChassisState(
     mode=ControlMode.CAN, voltage_v=26.0, faults=0, driver_faults=(0, 0, 0, 0), guard=GuardState.ARMED,
     guard_reason="", accepted_seq=1,
 )  # fmt: skip
+MOUNT = CameraMount(pitch=0.01, pitch_std=0.005, height=0.82, height_std=0.03, told_height=0.8)
 WELL = EventFacts(
     state=RunState.DRIVING, mode=NavMode.GNSS_PATH, tick_s=0.02, chassis=CHASSIS, chassis_age_s=0.02,
     system_age_s=0.05, pose_std=0.02, carried=0.0, gnss_age_s=0.2, pose_cap=None, pose_cap_reason="",
     row_age_s=None, row_reason="", entrance=None, room=None, lateral_error=0.02, captured=True, stuck=False,
     held_s=0.0, arming_s=0.0, link_age_s=0.5, link_loss=LinkLossPolicy.STOP, zone="", start_distance=0.1,
-    waiting_for_gnss=False, askew=(0.01, 0.01),
+    waiting_for_gnss=False, askew=(0.01, 0.01), mount=MOUNT,
 )  # fmt: skip
 FAULTS: dict[str, dict[str, Any]] = {
     "chassis_silent": {"chassis_age_s": 0.25},
@@ -39,6 +40,8 @@ FAULTS: dict[str, dict[str, Any]] = {
     "battery_low": {"chassis": replace(CHASSIS, voltage_v=23.0)},
     "tick_late": {"tick_s": 0.25},
     "camera_askew": {"askew": (0.1, 0.02)},
+    "camera_pitched": {"mount": replace(MOUNT, pitch=-0.06)},
+    "camera_raised": {"mount": replace(MOUNT, height=1.05)},
     "tick_slow": {"tick_s": 0.12},
     "no_position": {"pose_std": None},
     "position_unsure": {"pose_std": 1.0},

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from navcore.geometry.pinhole import PinholeCamera, robot_camera
 from navcore.geometry.se2 import SE2
-from navcore.messages import CameraName, RowObservation
+from navcore.messages import CameraMount, CameraName, RowObservation
 from navcore.perception.detector import Told
 from navcore.perception.row_lines import RowPrior
 from navcore.perception.row_perception import RowPerception, RowPerceptionParams
@@ -23,9 +24,12 @@ TENTH_DEG = math.radians(0.1)
 
 def drive(
     roll: float, told_roll: float = 0.0, *, metres: float = 5.0, slip: float = 0.0, camera: PinholeCamera = FRONT,
-    noise_px: float = 0.0, **orchard: object,
+    noise_px: float = 0.0, mounted: PinholeCamera | None = None, **orchard: object,
 ) -> list[RowObservation]:  # fmt: skip
-    """Along a corridor of 3 m, the body leaning by `roll`, the IMU telling `told_roll`, wheels `slip` more metres."""
+    """Along a corridor of 3 m, the body leaning by `roll`, the IMU telling `told_roll`, wheels `slip` more metres.
+
+    `mounted` is how the camera really is, where its settings (`camera`) are wrong.
+    """
     way = -1.0 if camera is REAR else 1.0
     told, rng = Told(()), np.random.default_rng(4)
     perception = RowPerception(camera, told, RowPerceptionParams())
@@ -34,7 +38,9 @@ def drive(
     rows = []
     for k in range(int(metres / STEP)):
         feet = corridor_feet(SE2(way * k * STEP, 0.0, 0.0), lines=1, **orchard)  # type: ignore[arg-type]
-        told.objects = boxes_at(camera, feet + rng.normal(0.0, 1e-6 + noise_px * 0.01, feet.shape), roll=roll)
+        told.objects = boxes_at(
+            mounted or camera, feet + rng.normal(0.0, 1e-6 + noise_px * 0.01, feet.shape), roll=roll
+        )
         motion = SE2(way * STEP * (1.0 + slip), 0.0, 0.0) if k else None
         rows.append(perception.process(picture(camera), k, name, prior=prior, motion=motion).row)
     return rows
@@ -73,3 +79,30 @@ def test_plants_on_one_side_only_tell_of_no_lean() -> None:
 
 def test_a_robot_that_stands_learns_nothing_of_its_lean() -> None:
     assert all(row.lean is None for row in drive(0.03, metres=2.0))
+
+
+def mount(rows: list[RowObservation]) -> CameraMount:
+    mounts = [row.mount for row in rows if row.mount is not None]
+    assert len(mounts) == 1
+    return mounts[0]
+
+
+@pytest.mark.parametrize("deg", [-2.0, 0.0, 1.5])
+def test_a_camera_that_looks_further_down_than_its_settings_say_is_found_out(deg: float) -> None:
+    tilted = replace(FRONT, pitch=FRONT.pitch + math.radians(deg))
+    found = mount(drive(0.0, mounted=tilted))
+    assert math.degrees(found.pitch) == pytest.approx(deg, abs=0.4)
+    assert found.height == pytest.approx(0.8, abs=0.04)  # m
+
+
+@pytest.mark.parametrize("height", [0.7, 0.8, 0.9])
+def test_a_camera_that_stands_higher_than_its_settings_say_is_found_out(height: float) -> None:
+    found = mount(drive(0.0, mounted=replace(FRONT, z=height)))
+    assert found.height == pytest.approx(height, abs=0.05)  # m
+    assert found.told_height == 0.8
+    assert abs(math.degrees(found.pitch)) < 0.7
+
+
+def test_wheels_that_slip_make_no_camera_higher_than_its_doubt() -> None:
+    found = mount(drive(0.0, slip=0.05))
+    assert abs(found.height - 0.8) < 2.0 * found.height_std
