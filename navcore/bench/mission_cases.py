@@ -80,7 +80,7 @@ LIGHTS = (LightName.NOON, LightName.OVERCAST, LightName.BACKLIT)
 SPEEDS = (0.6, 0.4, 0.8)
 EXITS = (RowExit.REVERSE, RowExit.NEXT_ROW)
 # Worlds that somebody has looked into to mend something are not unseen any more: then these move on.
-MISSION_SEED, TRACK_SEED, ROW_CHANGE_SEED = 28_000, 29_000, 30_000
+MISSION_SEED, TRACK_SEED, ROW_CHANGE_SEED = 31_000, 32_000, 33_000
 QUICK = (Season.GROWING, LightName.OVERCAST)
 
 

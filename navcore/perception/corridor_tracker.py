@@ -169,6 +169,7 @@ class CorridorTracker:
             covariance=covariance, pitch=float(corridor.state[3]),
             left_x=corridor.x[told & (corridor.sides > 0)], right_x=corridor.x[told & (corridor.sides < 0)],
             quality=_quality(corridor, math.sqrt(covariance[0, 0]), p),
+            beside=corridor.xy[(corridor.sides == 0) & np.isfinite(corridor.x)],
         )  # fmt: skip
 
 

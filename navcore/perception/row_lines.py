@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Protocol
 
 import numpy as np
@@ -62,6 +62,7 @@ class GroundRow:
         pitch: how much further down than its mount says the camera looked, rad.
         left_x, right_x: distances ahead of the driving frame's origin, along x, of the objects on either line.
         quality: 0 to 1.
+        beside: (N, 2) feet that stand on neither line, in the driving frame, m.
     """
 
     offset: float
@@ -72,6 +73,7 @@ class GroundRow:
     left_x: Floats
     right_x: Floats
     quality: float
+    beside: Floats = field(default_factory=lambda: np.empty((0, 2)))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
