@@ -62,10 +62,12 @@ class SpeedCap:
     Attributes:
         speed: m/s, 0 means stop, None means no cap.
         reason: why; empty without a cap.
+        passes: it may pass by itself: GNSS without a fix is apart from a pose that odometry holds.
     """
 
     speed: float | None
     reason: str
+    passes: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,6 +112,7 @@ class IndependentCheck:
         self._path_reason = ""
         self._place_reason = ""
         self._apart_ns: int | None = None
+        self._apart_with_fix = False
 
     def add_imu(self, sample: ImuSample) -> None:
         """Turn rate."""
@@ -159,13 +162,15 @@ class IndependentCheck:
         if not on_gnss:
             self.acknowledge()
             return NO_CAP
-        if self._path_reason or self._place_reason:
-            return SpeedCap(0.0, self._path_reason or self._place_reason)
+        if self._path_reason:
+            return SpeedCap(0.0, self._path_reason)
+        if self._place_reason:
+            return SpeedCap(0.0, self._place_reason, passes=not self._apart_with_fix)
         return self._quality_cap(now_ns)
 
     def acknowledge(self) -> None:
         """Begin anew: an operator has looked, or the robot drives on something else."""
-        self._anchor, self._apart_ns = None, None
+        self._anchor, self._apart_ns, self._apart_with_fix = None, None, False
         self._path_reason = self._place_reason = ""
 
     def _quality_cap(self, now_ns: int) -> SpeedCap:
@@ -191,11 +196,12 @@ class IndependentCheck:
         y = estimate.y + s * p.antenna_x + c * p.antenna_y
         off = math.hypot(here.east - x, here.north - y)
         if off <= (p.place_offset if here.quality is FixQuality.RTK_FIXED else self._float_offset(here)):
-            self._apart_ns, self._place_reason = None, ""
+            self._apart_ns, self._place_reason, self._apart_with_fix = None, "", False
             return
         self._apart_ns = self._apart_ns or here.leg.stamp_ns
         if (here.leg.stamp_ns - self._apart_ns) * NS >= p.patience_s:
             self._place_reason = f"GNSS and the pose are {off:.1f} m apart"
+            self._apart_with_fix = self._apart_with_fix or here.quality is FixQuality.RTK_FIXED
 
     def _compare_path(self, here: Anchor) -> None:
         start = self._anchor

@@ -60,7 +60,7 @@ class EventParams:
 class EventFacts:
     """What the table looks at in one tick, `pose_cap` in m/s being what the second opinion on the pose allows.
 
-    Ages are None where nothing came; `captured`: the path was reached;
+    `pose_cap_passes`: it may pass by itself. Ages are None where nothing came; `captured`: the path was reached;
     `entrance`: metres to that of a row which is driven at without being seen; `room`: metres between body and plants
     on the narrower side of a seen one that is near; `askew`: how far the camera leans to the right against the IMU,
     and its 1-sigma, rad; `mount`: how else it is mounted.
@@ -77,6 +77,7 @@ class EventFacts:
     gnss_age_s: float | None
     pose_cap: float | None
     pose_cap_reason: str
+    pose_cap_passes: bool
     row_age_s: float | None
     row_reason: str
     entrance: float | None

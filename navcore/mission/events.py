@@ -47,6 +47,10 @@ def _by_row(f: EventFacts) -> bool:
     return amid and f.mode not in (NavMode.GNSS_PATH, NavMode.IDLE)
 
 
+def _capped_to_nothing(f: EventFacts) -> bool:
+    return f.pose_cap is not None and not f.pose_cap > 0.0
+
+
 def _moving(f: EventFacts) -> bool:
     return f.state in (RunState.DRIVING, RunState.HOLDING)
 
@@ -155,8 +159,12 @@ EVENTS: tuple[Event, ...] = (
     ),
     _event(
         "pose_in_doubt", "STOP",
-        lambda f, _: f.state in MOVING and f.pose_cap is not None and not f.pose_cap > 0.0,
+        lambda f, _: f.state in MOVING and _capped_to_nothing(f) and not f.pose_cap_passes,
         lambda f: f"The position is in doubt: {f.pose_cap_reason}. Look at the robot and the antenna, then resume.",
+    ),
+    _event(
+        "pose_apart", "HOLD", lambda f, _: _moving(f) and _capped_to_nothing(f) and f.pose_cap_passes,
+        lambda f: f"GNSS has no fix: {f.pose_cap_reason}. The robot waits and goes on by itself.",
     ),
     _event(
         "pose_weak", "SLOW",
@@ -199,7 +207,7 @@ EVENTS: tuple[Event, ...] = (
     _event(
         "held_too_long", "STOP",
         lambda f, p: f.state is RunState.HOLDING
-        and f.held_s > (p.gnss_hold_s if f.waiting_for_gnss else p.hold_stop_s),
+        and f.held_s > (p.gnss_hold_s if f.waiting_for_gnss or f.pose_cap_passes else p.hold_stop_s),
         "The robot has waited too long. Look at what it waits for, then resume.",
     ),
     _event(

@@ -65,6 +65,7 @@ def event_facts(
         gnss_age_s=s.gnss.age_s(now_ns),
         pose_cap=cap.speed,
         pose_cap_reason=cap.reason,
+        pose_cap_passes=cap.passes,
         row_age_s=pilot.row.age_s(now_ns) if pilot else None,
         row_reason=pilot.row.reason if pilot else "",
         entrance=_unseen_entrance(now),

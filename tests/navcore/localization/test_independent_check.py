@@ -87,6 +87,21 @@ def test_float_fixes_beside_plants_may_be_off_by_what_the_receiver_tells_of_them
     assert any(cap.speed == 0.0 for _, cap in caps(3, 11.0, change=beside_plants)[60:]) is stops
 
 
+@pytest.mark.parametrize("quality", [FixQuality.RTK_FLOAT, FixQuality.RTK_FIXED])
+def test_a_robot_may_wait_for_float_fixes_to_come_back_and_not_for_fixed_ones(quality: FixQuality) -> None:
+    """A fixed solution that jumps is a fault; a float one is 2 m off beside a shed, and right again after it."""
+
+    def beside_a_shed(fix: GnssFix, t: float) -> GnssFix:
+        return replace(moved(fix, 2.0, 0.0), quality=quality) if 8.0 <= t < 11.0 else fix
+
+    found = caps(3, 16.0, change=beside_a_shed)[60:]
+    apart = [cap for _, cap in found if cap.speed == 0.0 and "apart" in cap.reason]
+    assert apart
+    assert all(cap.passes is (quality is FixQuality.RTK_FLOAT) for cap in apart)
+    if quality is FixQuality.RTK_FLOAT:
+        assert found[-1][1].speed is None
+
+
 def test_wrong_heading_is_stopped_within_four_metres_on_float_fixes_too() -> None:
     scatter = np.random.default_rng(7)
     found = caps(1, 25.0, straight, lambda fix, _: as_float(fix, scatter, math.pi))

@@ -24,9 +24,9 @@ MOUNT = CameraMount(pitch=0.01, pitch_std=0.005, height=0.82, height_std=0.03, t
 WELL = EventFacts(
     state=RunState.DRIVING, mode=NavMode.GNSS_PATH, tick_s=0.02, chassis=CHASSIS, chassis_age_s=0.02,
     system_age_s=0.05, pose_std=0.02, carried=0.0, gnss_age_s=0.2, pose_cap=None, pose_cap_reason="",
-    row_age_s=None, row_reason="", entrance=None, room=None, lateral_error=0.02, captured=True, stuck=False,
-    held_s=0.0, arming_s=0.0, link_age_s=0.5, link_loss=LinkLossPolicy.STOP, zone="", start_distance=0.1,
-    waiting_for_gnss=False, askew=(0.01, 0.01), mount=MOUNT,
+    pose_cap_passes=False, row_age_s=None, row_reason="", entrance=None, room=None, lateral_error=0.02,
+    captured=True, stuck=False, held_s=0.0, arming_s=0.0, link_age_s=0.5, link_loss=LinkLossPolicy.STOP, zone="",
+    start_distance=0.1, waiting_for_gnss=False, askew=(0.01, 0.01), mount=MOUNT,
 )  # fmt: skip
 FAULTS: dict[str, dict[str, Any]] = {
     "chassis_silent": {"chassis_age_s": 0.25},
@@ -48,6 +48,7 @@ FAULTS: dict[str, dict[str, Any]] = {
     "gnss_old": {"gnss_age_s": 1.5},
     "gnss_lost": {"gnss_age_s": 3.5},
     "pose_in_doubt": {"pose_cap": 0.0, "pose_cap_reason": "the receiver has jumped"},
+    "pose_apart": {"pose_cap": 0.0, "pose_cap_reason": "2.1 m apart", "pose_cap_passes": True},
     "pose_weak": {"pose_cap": 0.3, "pose_cap_reason": "GNSS is only float"},
     "waiting_for_gnss": {"waiting_for_gnss": True},
     "entrance_unseen": {"entrance": 0.9},
