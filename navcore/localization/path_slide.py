@@ -30,7 +30,7 @@ class PathSlideParams:
     across_share: float = 0.3
     along_share: float = 0.5
     turn_share: float = 0.25
-    gentle: float = 0.3
+    gentle: float = 0.67
     patience: float = 0.35
     patience_along: float = 0.25
 
