@@ -30,8 +30,8 @@ class GroundSlopeParams:
         land_deg, land_length: 1-sigma of the land's slope, and the way over which it becomes another, m.
         mount_deg: 1-sigma of how the IMU's axes and zeros are off.
         bump_deg, bump_length: 1-sigma of the lean in ruts and bumps, and the way over which it lasts, m.
-        height_gate: so is a height. gate: a reading of the camera further off than so many 1-sigma is not believed,
-        insist: unless so many in a row say the same: then the mount has moved.
+        gate, height_gate: a reading of the camera, or a height, further off than so many 1-sigma is not believed,
+        insist: unless so many in a row say the same: then the mount has moved, or the level is not known any more.
         moved_deg: 1-sigma of how far a mount that has moved is off.
         height_std, height_length: 1-sigma of a height about the land's plane, m, by bumps and by GNSS, and the way
             over which it lasts, m.

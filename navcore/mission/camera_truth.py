@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections import deque
 from collections.abc import Iterable
 
@@ -32,14 +31,15 @@ class CameraTruth:
 def mean_mount(readings: Iterable[CameraMount]) -> CameraMount:
     """Readings weighed by what they are worth. The height grows no surer: wheels slip always to the same side."""
     told = list(readings)
-    by_pitch, by_height = ([1.0 / std**2 for std in stds] for stds in _stds(told))
-    pitch = sum(w * m.pitch for w, m in zip(by_pitch, told, strict=True)) / sum(by_pitch)
-    height = sum(w * m.height for w, m in zip(by_height, told, strict=True)) / sum(by_height)
+    pitch, pitch_std = _mean([(m.pitch, m.pitch_std) for m in told])
+    height, _ = _mean([(m.height, m.height_std) for m in told])
     return CameraMount(
-        pitch=pitch, pitch_std=1.0 / math.sqrt(sum(by_pitch)), height=height,
-        height_std=min(m.height_std for m in told), told_height=told[-1].told_height,
+        pitch=pitch, pitch_std=pitch_std, height=height, height_std=min(m.height_std for m in told),
+        told_height=told[-1].told_height,
     )  # fmt: skip
 
 
-def _stds(told: list[CameraMount]) -> tuple[list[float], list[float]]:
-    return [m.pitch_std for m in told], [m.height_std for m in told]
+def _mean(told: list[tuple[float, float]]) -> tuple[float, float]:
+    """Of values with their 1-sigma, and its own."""
+    information = sum(std**-2 for _, std in told)
+    return sum(value * std**-2 for value, std in told) / information, information**-0.5

@@ -33,14 +33,14 @@ class LeanWatchParams:
 
 @dataclass(frozen=True, slots=True)
 class Reading:
-    """Of some metres; None where too few plants were passed."""
+    """Of some metres; None where too few plants were passed, or no line beside the row was in sight."""
 
     lean: Lean | None
     mount: CameraMount | None
 
 
 class LeanWatch:
-    """One reading every few metres of a row that is seen without a break."""
+    """Readings every few metres of a row that is seen without a break, by its plants and by its neighbours."""
 
     def __init__(self, camera: PinholeCamera, params: LeanWatchParams) -> None:
         """`camera` is mounted in the driving frame."""

@@ -75,19 +75,16 @@ class PlantSightings:
         `motion` is `T_last_now` of the driving frame; `stretch` (1/m) frees distances of a known lean: a foot `y` to
         the left is taken 1 + y * stretch times as far away.
         """
-        heading_before = row.heading + motion.yaw
-        self.driven += motion.x * math.cos(heading_before) + motion.y * math.sin(heading_before)
+        self.driven += row.along(motion)
         if self.driven < self._next:
             return
         self._next = self.driven + self._params.every
-        for left, xs in ((True, row.left_x), (False, row.right_x)):
-            for x in xs:
-                self._see(row, left, float(x), stretch)
+        for left, x, y in row.feet():
+            self._see(row.heading, left, x, y, stretch)
         self._pictures += 1
 
-    def _see(self, row: GroundRow, left: bool, x: float, stretch: float) -> None:
-        p, c, s = self._params, math.cos(row.heading), math.sin(row.heading)
-        y = (row.offset + (0.5 if left else -0.5) * row.width + x * s) / c
+    def _see(self, heading: float, left: bool, x: float, y: float, stretch: float) -> None:
+        p, c, s = self._params, math.cos(heading), math.sin(heading)
         ahead = (x - self._camera_x) * (1.0 + y * stretch)
         if p.least_range < ahead < p.most_range:
             along = self.driven + (ahead + self._camera_x) * c + y * s

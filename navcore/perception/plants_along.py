@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import math
 
+# Only so many are looked among, the ones met last: no more are in sight, and a row may have hundreds.
+RECENT = 80
+
 
 class PlantsAlong:
     """Numbers the plants that are met, and remembers where each stands along the row, m."""
@@ -15,11 +18,8 @@ class PlantsAlong:
 
     def nearest(self, left: bool, along: float, gate: float) -> int | None:
         """Number of that side's plant which stands there, None if none does within `gate` m."""
-        near = [
-            (abs(at - along), i)
-            for i, (side, at) in enumerate(zip(self._left, self.along, strict=True))
-            if side is left
-        ]
+        newest = range(max(0, len(self.along) - RECENT), len(self.along))
+        near = [(abs(self.along[i] - along), i) for i in newest if self._left[i] is left]
         off, i = min(near, default=(math.inf, -1))
         return i if off <= gate else None
 

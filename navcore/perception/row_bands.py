@@ -25,7 +25,7 @@ def row_band(camera: PinholeCamera, row: GroundRow, side: float) -> ImageArea:
     """Where the line of plants on that side (+1 left, -1 right, 0: the centre line) lies with 95 %."""
     seen = replace(camera, pitch=camera.pitch + row.pitch)
     x = _ahead(seen)
-    across = (row.offset + side * row.width / 2) / math.cos(row.heading) + math.tan(row.heading) * x
+    across = row.across(side, x)
     C = row.covariance
     std = np.sqrt(np.maximum(C[0, 0] + 2.0 * x * C[0, 1] + x**2 * C[1, 1], 0.0))
     left, right = (_pixels(seen, x, across + sign * SIGMAS * std) for sign in (1.0, -1.0))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from typing import Protocol
 
@@ -74,6 +75,25 @@ class GroundRow:
     right_x: Floats
     quality: float
     beside: Floats = field(default_factory=lambda: np.empty((0, 2)))
+
+    def across(self, side: float, x: Floats) -> Floats:
+        """y of the line on that side (+1 left, -1 right, 0 the centre line) at `x` ahead, driving frame, m."""
+        aside = self.offset + side * self.width / 2
+        return np.asarray((aside + x * math.sin(self.heading)) / math.cos(self.heading), dtype=np.float64)
+
+    def feet(self) -> list[tuple[bool, float, float]]:
+        """On the left line or the right one, x and y in the driving frame, m, of the objects that carry the lines."""
+        sides = ((True, 1.0, self.left_x), (False, -1.0, self.right_x))
+        return [
+            (left, x, y)
+            for left, side, xs in sides
+            for x, y in zip(xs.tolist(), self.across(side, xs).tolist(), strict=True)
+        ]
+
+    def along(self, motion: SE2) -> float:
+        """Metres along the row of the motion since the last picture (`T_last_now` of the driving frame)."""
+        before = self.heading + motion.yaw
+        return motion.x * math.cos(before) + motion.y * math.sin(before)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

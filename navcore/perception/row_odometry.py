@@ -69,7 +69,7 @@ class RowOdometry:
         if row is None:
             return None
         driven = self._driven or Driven(0.0, stamp_ns)
-        told = self._told(row, motion) if motion else 0.0
+        told = row.along(motion) if motion else 0.0
         feet = [Foot(left, driven.metres + told + x) for left, x in self._ahead(row)]
         slip = self._slip(feet)
         for foot in feet:
@@ -77,20 +77,10 @@ class RowOdometry:
         self._driven = Driven(driven.metres + told - slip, driven.since_ns)
         return self._driven
 
-    def _told(self, row: GroundRow, motion: SE2) -> float:
-        before = row.heading + motion.yaw
-        return motion.x * math.cos(before) + motion.y * math.sin(before)
-
     def _ahead(self, row: GroundRow) -> list[tuple[bool, float]]:
         """Side and distance along the row of the feet that are near, m."""
         c, s = math.cos(row.heading), math.sin(row.heading)
-        sides = ((True, row.left_x), (False, row.right_x))
-        placed = (
-            (left, float(x), (row.offset + (0.5 if left else -0.5) * row.width + x * s) / c)
-            for left, xs in sides
-            for x in xs
-        )
-        return [(left, x * c + y * s) for left, x, y in placed if x < self._params.furthest]
+        return [(left, x * c + y * s) for left, x, y in row.feet() if x < self._params.furthest]
 
     def _slip(self, feet: list[Foot]) -> float:
         """How many of the metres told were not driven."""
