@@ -5,6 +5,8 @@ import os
 import platform
 import subprocess
 import sys
+import time
+from subprocess import PIPE
 
 import pytest
 
@@ -53,21 +55,34 @@ import os, sys, time
 from navcore.promptness import stand_back
 os.sched_setaffinity(0, {int(sys.argv[1])})
 if sys.argv[2] == "background": stand_back()
-end = time.monotonic() + 2.0
+print("ready", flush=True)
+end = float(sys.stdin.readline())
+before = time.process_time()
 while time.monotonic() < end: pass
-print(time.process_time())
+print(time.process_time() - before)
 """
 
 
 def test_work_in_the_background_leaves_the_processor_to_those_of_other_sessions() -> None:
     """Both on one processor, each in its own session as the station's processes are; half and half if it did not."""
-    processor = str(min(os.sched_getaffinity(0)))
-    both = [
-        subprocess.Popen([sys.executable, "-c", BUSY, processor, how], stdout=subprocess.PIPE, start_new_session=True)
-        for how in ("foreground", "background")
-    ]
-    foreground, background = (float(process.communicate()[0]) for process in both)
+    foreground, background = busy_until_the_same_moment("foreground", "background")
     assert foreground > 3 * background
+
+
+def busy_until_the_same_moment(*how: str) -> list[float]:
+    """Processor time of each, s, in 2 s that begin when all stand ready, however late one of them was let in."""
+    processor = str(min(os.sched_getaffinity(0)))
+    each = [
+        subprocess.Popen(
+            [sys.executable, "-c", BUSY, processor, one], stdin=PIPE, stdout=PIPE, text=True, start_new_session=True
+        )
+        for one in how
+    ]
+    assert [process.stdout.readline() for process in each if process.stdout] == ["ready\n"] * len(each)
+    end = time.monotonic() + 2.0
+    for process in each:
+        print(end, file=process.stdin, flush=True)
+    return [float(process.communicate()[0]) for process in each]
 
 
 def test_the_kernel_takes_the_short_slice() -> None:
