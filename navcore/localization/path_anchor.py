@@ -181,6 +181,7 @@ class PathAnchor:
 
     def lose(self, heading: float, metres: float) -> None:
         """Of the way that was driven in that direction, rad in `map`, so many metres were not driven."""
+        self.slip.lose(metres)
         back = SE2(-metres * math.cos(heading), -metres * math.sin(heading), 0.0)
         self.T_map_odom, self.departed = back @ self.T_map_odom, back @ self.departed
 

@@ -16,6 +16,7 @@ from navcore.localization.row_line import RowLine
 from navcore.messages import CameraName, NavMode, PathSegment, RowObservation, SegmentKind
 from navcore.mission.evidence import RowEvidence, RowEvidenceParams
 from navcore.mission.mode_selector import CARRIED
+from navcore.mission.plant_odometer import PlantOdometer
 from navcore.mission.route import row_length
 
 
@@ -47,7 +48,7 @@ class LookBack:
         self.row: LeftRow | None = None
         self.active = False
         self._evidence = RowEvidence(params)
-        self._began: tuple[int, float] | None = None
+        self._odometer = PlantOdometer(anchor)
 
     @property
     def tie(self) -> SE2:
@@ -67,7 +68,7 @@ class LookBack:
         self.active = way_out and self.row is not None and not sees_row_ahead
         if self.active and not before:
             self._anchor.look_back()
-            self._began = None
+            self._odometer.begin()
         elif before and not self.active:
             self._anchor.behind = None
         return self.active and not before
@@ -79,21 +80,11 @@ class LookBack:
         offset, row = -seen.offset, self.row
         if not self._evidence.judge(replace(seen, offset=offset), row.line, (self.tie @ T_odom_drive,), row.width):
             return
-        self._advance(row.line, T_odom_drive, seen)
+        # What the robot drives ahead of the plants behind, they tell as less than 0.
+        driven = None if seen.driven is None else -seen.driven
+        self._odometer.take(row.line, self.tie @ T_odom_drive, driven, seen.driven_since_ns)
         noise = look_noise(seen.offset_std or 0.05, seen.heading_std or 0.02, -seen.correlation)
         self._anchor.see_left(row.line, T_odom_drive, offset, seen.heading, noise)
-
-    def _advance(self, row: RowLine, T_odom_drive: SE2, seen: RowObservation) -> None:
-        """The plants behind tell how far the robot really got; what it drives ahead of them they tell as less than 0.
-
-        `_began` is when they came in sight, ns, and the place along the row where the robot was then, m.
-        """
-        if seen.driven is None or seen.driven_since_ns is None:
-            return
-        along = row.coordinates(self.tie @ T_odom_drive).x
-        if self._began is None or self._began[0] != seen.driven_since_ns:
-            self._began = seen.driven_since_ns, along + seen.driven
-        self._anchor.lose(row.heading, along - (self._began[1] - seen.driven))
 
 
 def other(camera: CameraName) -> CameraName:

@@ -14,6 +14,7 @@ from navcore.mission.evidence import NO_IDEA, Doubt, RowEvidence
 from navcore.mission.look_back import LeftRow, LookBack
 from navcore.mission.mode_selector import ALONG_ROW, CARRIED, ON_CAMERA, ModeFacts, select_mode, start_reason
 from navcore.mission.pilot_params import PilotParams
+from navcore.mission.plant_odometer import PlantOdometer
 from navcore.mission.position import Position
 from navcore.mission.route import Leg, Place, Route, row_length
 
@@ -27,6 +28,7 @@ class Pilot:
         self.anchor = PathAnchor(T_map_base @ start.T_odom_base.inverse(), params.anchor)
         self.row = RowEvidence(params.row)
         self.look_back = LookBack(self.anchor, params.row)
+        self._odometer = PlantOdometer(self.anchor)
         self.carried = 0.0
         self.arrived = self.captured = False
         self._comes_from_gnss = True
@@ -149,7 +151,12 @@ class Pilot:
         return self.sees_row and at.x < 0.0 and abs(at.yaw) <= self.params.turned_to
 
     def _see_along(self, seen: RowObservation, row: RowLine, T_odom_drive: SE2, length: float) -> None:
-        """Correct the place along the row by its end, or by its having none yet."""
+        """Correct the place along the row by its end, or by its having none yet; from then on by its last plants."""
+        if seen.end_distance is None and self.mode is NavMode.ROW:
+            self._odometer.begin()
+        else:
+            T_map_drive = self.anchor.T_map_odom @ T_odom_drive
+            self._odometer.take(row, T_map_drive, seen.driven, seen.driven_since_ns)
         if seen.end_distance is not None:
             self.anchor.see_along(row, T_odom_drive, length - seen.end_distance, self.params.end_std)
         elif seen.seen_to is not None:
@@ -187,7 +194,9 @@ class Pilot:
 
     def _look_out(self) -> None:
         """Ahead, or back at the row that is being left once nothing is in sight ahead."""
-        if self.look_back.choose(self.mode, self.segment, self.sees_row):
+        seen = self.row.agreeing
+        ends = seen is not None and seen.end_distance is not None and seen.end_distance < self.params.blind
+        if self.look_back.choose(self.mode, self.segment, self.sees_row and not ends):
             self.row.forget()
 
     def _choose_mode(self, at: Position) -> ModeSwitch | None:

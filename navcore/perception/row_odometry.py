@@ -12,6 +12,9 @@ from navcore.geometry.se2 import SE2
 from navcore.perception.plants_along import PlantsAlong
 from navcore.perception.row_lines import GroundRow
 
+# Metres between two pictures that tell nothing of slip.
+STANDING = 0.005
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RowOdometryParams:
@@ -22,15 +25,20 @@ class RowOdometryParams:
         gate: a foot belongs to a plant not further off along the row, m.
         known: so many sightings make a plant a mark; steady: its place is their mean, and of no more than so many.
         least: so many marks must be in sight.
-        gain: share of what the marks say that is taken over per picture.
+        gain: share of what the marks say that is taken over per picture; slip_gain: and into the slip that goes on.
+        most: slip beyond that is not carried on, a share.
+        weeds: so high up they hide the feet, m, which look further away by that share of the camera's height.
     """
 
     furthest: float = 7.0
     gate: float = 0.35
     known: int = 3
     steady: int = 25
-    least: int = 2
+    least: int = 1
     gain: float = 0.25
+    slip_gain: float = 0.015
+    most: float = 0.25
+    weeds: float = 0.015
 
 
 class Foot(NamedTuple):
@@ -48,21 +56,27 @@ class Driven(NamedTuple):
 
 
 class RowOdometry:
-    """Compares where plants stand from picture to picture with what the wheels tell. Ours."""
+    """Compares where plants stand from picture to picture with what the wheels tell. Ours.
 
-    def __init__(self, params: RowOdometryParams) -> None:
+    `step` are the metres ahead along the row since the last picture; 0 where no row was seen in it.
+    """
+
+    def __init__(self, camera_height: float, params: RowOdometryParams) -> None:
+        """`camera_height` over the ground, m."""
         self._params = params
+        self._nearer = 1.0 - params.weeds / camera_height
         self.forget()
 
     def forget(self) -> None:
         """Begin anew: another row, or pictures that do not follow each other."""
         self._plants = PlantsAlong()
         self._driven: Driven | None = None
+        self._share = self.step = 0.0
 
     def see(self, row: GroundRow | None, motion: SE2 | None, stamp_ns: int) -> Driven | None:
         """How far the robot got along the row; None without a row. `motion` as in `RowCue`.
 
-        Where too few plants are in sight the wheels are believed.
+        Where too few plants are in sight the wheels slip as they did last.
         """
         if row is None or motion is None:
             self.forget()
@@ -70,23 +84,32 @@ class RowOdometry:
             return None
         driven = self._driven or Driven(0.0, stamp_ns)
         told = row.along(motion) if motion else 0.0
-        feet = [Foot(left, driven.metres + told + x) for left, x in self._ahead(row)]
-        slip = self._slip(feet)
+        likely = (1.0 - self._share) * told
+        feet = [Foot(left, driven.metres + likely + x) for left, x in self._ahead(row)]
+        beyond = self._beyond(feet)
         for foot in feet:
-            self._remember(Foot(foot.left, foot.along - slip))
-        self._driven = Driven(driven.metres + told - slip, driven.since_ns)
+            self._remember(Foot(foot.left, foot.along - self._params.gain * beyond))
+        self._learn(beyond, told)
+        self.step = likely - self._params.gain * beyond
+        self._driven = Driven(driven.metres + self.step, driven.since_ns)
         return self._driven
 
     def _ahead(self, row: GroundRow) -> list[tuple[bool, float]]:
         """Side and distance along the row of the feet that are near, m."""
-        c, s = math.cos(row.heading), math.sin(row.heading)
+        c, s = self._nearer * math.cos(row.heading), self._nearer * math.sin(row.heading)
         return [(left, x * c + y * s) for left, x, y in row.feet() if x < self._params.furthest]
 
-    def _slip(self, feet: list[Foot]) -> float:
-        """How many of the metres told were not driven."""
+    def _beyond(self, feet: list[Foot]) -> float:
+        """By how much the marks seem to stand further along than they do, m: 0 where there are too few."""
         found = [(foot.along, self._plants.nearest(*foot, self._params.gate)) for foot in feet]
         known = [along - self._plants.along[i] for along, i in found if i is not None and self._known(i)]
-        return self._params.gain * float(np.median(known)) if len(known) >= self._params.least else 0.0
+        return float(np.median(known)) if len(known) >= self._params.least else 0.0
+
+    def _learn(self, beyond: float, told: float) -> None:
+        """What the wheels tell too much goes on: the ground is wet for metres."""
+        if abs(told) > STANDING:
+            share = self._share + self._params.slip_gain * beyond / told
+            self._share = min(max(share, -self._params.most), self._params.most)
 
     def _known(self, i: int) -> bool:
         return self._plants.sightings[i] >= self._params.known

@@ -83,7 +83,7 @@ class RowPerception:
         self._fitter = row_line_fitter(self._camera, params)
         self._end = RowEnd(params.row_end)
         self._lean = LeanWatch(self._camera, params.lean)
-        self._odometry = RowOdometry(params.odometry)
+        self._odometry = RowOdometry(camera.z, params.odometry)
         c = self._camera
         self._region = filter_region(params.filter, width_px=c.width_px, height_px=c.height_px)
 
@@ -102,12 +102,12 @@ class RowPerception:
         corners = self._corner_points(objects)
         lines = self._fitter.fit(corners, cue)
         ground = self._on_ground(lines, corners)
-        end = self._row_end(ground, cue.motion)
         bisector = image_bisector(lines.left, lines.right) if lines.left and lines.right else None
         published = published_reading(bisector, self._camera, self._params.look_ahead) if bisector else None
         shown = None if isinstance(ground, str) else ground
         reading = self._read_lean(shown, cue)
         driven = self._odometry.see(shown, cue.motion, stamp_ns)
+        end = self._row_end(shown, cue.motion)
         row = row_observation(
             stamp_ns, camera_name, lines, fault or ground, end, self._seen_to(ground), published, reading, driven
         )  # fmt: skip
@@ -143,10 +143,12 @@ class RowPerception:
         """The corridor on the ground, or why there is none."""
         return lines.reason or lines.ground or ground_row(lines, corners, self._camera, self._params.ground)
 
-    def _row_end(self, ground: GroundRow | str, motion: SE2 | None) -> float | None:
+    def _row_end(self, row: GroundRow | None, motion: SE2 | None) -> float | None:
+        """By the plants the robot got so far since the last picture, and by the wheels where no row is seen."""
         if motion is None:
             self._end.forget()
-        return self._end.update(None if isinstance(ground, str) else ground, motion.x if motion else 0.0)
+        told = motion.x if motion else 0.0
+        return self._end.update(row, self._odometry.step if row and motion else told)
 
     def _seen_to(self, ground: GroundRow | str) -> float | None:
         if isinstance(ground, str):
