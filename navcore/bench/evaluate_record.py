@@ -34,7 +34,7 @@ class DecisionMark:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ViewMark:
-    """The centre line in one picture: its angle from the picture's vertical, rad, None without a line."""
+    """The centre line seen in one picture: its angle from the picture's vertical, rad, None without a line."""
 
     stamp_ns: int
     valid: bool
@@ -77,7 +77,7 @@ def view_mark(view: CameraView) -> ViewMark:
     """The mark of a picture. The published reading: the angle of the fitted centre line in the image plane."""
     line = view.centre
     angle = None if line is None else float(np.arctan2(line.u1 - line.u0, line.v0 - line.v1))
-    return ViewMark(stamp_ns=view.stamp_ns, valid=view.row.valid, angle=angle)
+    return ViewMark(stamp_ns=view.stamp_ns, valid=view.row.valid and not view.row.carried, angle=angle)
 
 
 def drawn_rows(plan: MissionPlan) -> tuple[TrueRow, ...]:

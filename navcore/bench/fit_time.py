@@ -21,6 +21,7 @@ OUTLIERS = (0.3, 0.5)
 # Camera 0.8 m above the ground; 1-sigma of a foot's ray (dimensionless), of the plants about their line, m.
 HEIGHT, RAY_STD, PLANT_STD = 0.8, 0.003, 0.03
 RIGHT_RAD = 0.03
+_NOISE = (RAY_STD, RAY_STD, CorridorFitParams().plant_std, CorridorFitParams().curve)
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,9 +63,7 @@ def _points(rng: np.random.Generator) -> tuple[Floats, float]:
 
 
 def _exact(rays: Floats) -> float | None:
-    p = CorridorFitParams()
-    noise = (RAY_STD, RAY_STD, p.plant_std, p.curve)
-    lines = best_lines(rays, 1, (0.0, 0.0, HEIGHT), noise)
+    lines = best_lines(rays, 1, (0.0, 0.0, HEIGHT), _NOISE)
     return float(lines[0, 0]) if len(lines) else None
 
 

@@ -41,6 +41,9 @@ class RecordedRowsParams:
         drop_out: share of the objects that are not found; `burst` is the share of pictures in which one whole side
             is hidden, and `burst_frames` for how long.
         false_boxes: mean number per picture.
+        yaw_scale, yaw_step_deg: what the gyro tells for a turn of 1, and 1-sigma of it between two pictures;
+            told_pitch_deg: 1-sigma of the pitch by the IMU. The simulated IMU is off by half: 0.02 and 0.11 deg;
+            the published methods use neither.
         edge_px: 1-sigma of each box edge; `foot_lift` is the share of feet that grass hides, by up to `lift_px`.
     """
 
@@ -59,6 +62,9 @@ class RecordedRowsParams:
     burst: float = 0.007
     burst_frames: int = 8
     false_boxes: float = 0.02
+    yaw_scale: float = 1.003
+    yaw_step_deg: float = 0.04
+    told_pitch_deg: float = 0.2
     edge_px: float = 0.6
     foot_lift: float = 0.08
     lift_px: float = 45.0
@@ -73,6 +79,7 @@ class RecordedFrame:
         offset, heading: of the centre line in the driving frame.
         width: of the corridor, m. pitch: how much further down than mounted the camera looked, rad.
         to_end: distance ahead of the driving frame's origin to the last plant, m.
+        told_pitch: the same as the IMU has it.
         motion: of the driving frame since the last picture, with odometry's error; None for the first.
     """
 
@@ -83,6 +90,7 @@ class RecordedFrame:
     heading: float
     width: float
     pitch: float
+    told_pitch: float
     to_end: float
     motion: SE2 | None
 
@@ -92,12 +100,14 @@ def record_rows(camera: PinholeCamera, params: RecordedRowsParams, rng: np.rando
     plants = _plants(params, rng)
     poses = [_pose(i * 0.1, params) for i in range(params.frames)]
     hidden = _hidden_sides(params, rng)
+    told_off = np.radians(rng.spawn(1)[0].normal(0.0, params.told_pitch_deg, params.frames))
     frames = []
     for i, pose in enumerate(poses):
         pitch = math.radians(rng.normal(0.0, params.pitch_deg))
         tilted = replace(camera, pitch=camera.pitch + pitch)
-        motion = _odometry(poses[i - 1].inverse() @ pose, rng) if i else None
-        frames.append(replace(_frame(tilted, pose, plants, hidden[i], motion, params, rng), pitch=pitch))
+        motion = _odometry(poses[i - 1].inverse() @ pose, params, rng) if i else None
+        frame = _frame(tilted, pose, plants, hidden[i], motion, params, rng)
+        frames.append(replace(frame, pitch=pitch, told_pitch=pitch + float(told_off[i])))
     return frames
 
 
@@ -106,8 +116,10 @@ def _pose(t: float, p: RecordedRowsParams) -> SE2:
     return SE2(p.speed * t, p.sway * math.sin(swing), math.radians(p.sway_heading_deg) * math.sin(swing + 1.3))
 
 
-def _odometry(motion: SE2, rng: np.random.Generator) -> SE2:
-    return SE2(motion.x * 1.02, motion.y, motion.yaw * 1.1 + rng.normal(0.0, 0.001))
+def _odometry(motion: SE2, p: RecordedRowsParams, rng: np.random.Generator) -> SE2:
+    """By slipping wheels and the gyro."""
+    yaw = motion.yaw * p.yaw_scale + math.radians(rng.normal(0.0, p.yaw_step_deg))
+    return SE2(motion.x * 1.02, motion.y, yaw)
 
 
 def _plants(p: RecordedRowsParams, rng: np.random.Generator) -> Floats:
@@ -139,7 +151,7 @@ def _frame(
     to_end = float(plants[:, 0].max()) - pose.x
     return RecordedFrame(
         objects=tuple(objects), left=left, right=right, offset=offset, heading=heading, width=p.width, pitch=0.0,
-        to_end=to_end, motion=motion,
+        told_pitch=0.0, to_end=to_end, motion=motion,
     )  # fmt: skip
 
 

@@ -14,9 +14,10 @@ from navcore.geometry.angles import difference
 from navcore.geometry.line2 import Line2
 from navcore.geometry.pinhole import PinholeCamera
 from navcore.perception.corner_points import CornerPoints, corner_points
+from navcore.perception.corridor_track import CorridorTrackerParams
 from navcore.perception.geometric_filter import GeometricFilterParams, geometric_filter
 from navcore.perception.image_lines import image_line
-from navcore.perception.row_lines import RowCue, RowLineFitter, RowLines
+from navcore.perception.row_lines import RowCue, RowLineFitter, RowLines, RowPrior
 from navcore.perception.row_perception import RowMethod, RowPerceptionParams, row_line_fitter
 
 # Makes a fitter that has seen nothing yet.
@@ -114,11 +115,21 @@ def count_frames(
             if frame.to_end <= 0.0:
                 break
             corners = candidates(frame, camera)
-            lines = fitter.fit(corners, RowCue(motion=frame.motion))
+            lines = fitter.fit(corners, cue(frame))
             valid, true = is_valid(lines, corners, frame, limit), is_true(lines, frame, camera, limit)
             for part in counts.parts(frame, drive):
                 part.add(valid=valid, true=true, abstained=lines.left is None or lines.right is None)
     return counts
+
+
+def cue(frame: RecordedFrame) -> RowCue:
+    """What the station knows beside the picture: that there is a row, how the robot moved, how it pitches."""
+    vague = CorridorTrackerParams()
+    prior = RowPrior(
+        offset=0.0, heading=0.0, std=vague.offset_std, heading_std=math.radians(vague.heading_std_deg),
+        pitch=frame.told_pitch,
+    )  # fmt: skip
+    return RowCue(prior=prior, motion=frame.motion)
 
 
 def candidates(frame: RecordedFrame, camera: PinholeCamera) -> CornerPoints:

@@ -18,6 +18,8 @@ class LineTrackerParams:
     max_turn_rate: rad/s, bound of the command (paper A: 0.75).
     capture_angle: rad, steepest approach to the line.
     turn_reserve: share of the possible turn rate that an approach may plan to use for straightening up.
+    heading_gain: of the heading error over the look-ahead; pure pursuit's own is 2. More holds the robot straighter
+        on ground that pushes it round: the loop's damping is half its root.
     lag_share: share of the actuator's lag that is predicted over.
     feedforward_lead: s, how far the path's curvature is read ahead of the predicted point.
     integral_gain: 1/(m^2 s): curvature per metre of lateral error per second.
@@ -29,6 +31,7 @@ class LineTrackerParams:
     max_turn_rate: float = 0.75
     capture_angle: float = math.radians(50.0)
     turn_reserve: float = 0.8
+    heading_gain: float = 3.5
     lag_share: float = 1.0
     feedforward_lead: float = 0.0
     integral_gain: float = 0.15
@@ -41,9 +44,10 @@ class LineTracker:
     """Pursuit in the straightened frame of the line, on the predicted pose, with curvature fed forward.
 
     With lateral error e and heading error h of the *predicted* pose and look-ahead L, pure pursuit of a straight
-    line is k = (2/L) sin(h_d - h) with the approach angle h_d = -asin(e/L). To this come the line's own curvature,
-    carried over to the robot's offset: k_line cos(h) / (1 - k_line e), an integral of e for what pushes steadily,
-    and the learnt turn response. The approach angle is bounded so that the robot can still straighten up.
+    line is k = (2/L) sin(h_d - h) with the approach angle h_d = -asin(e/L); ours is stiffer than that. To this come
+    the line's own curvature, carried over to the robot's offset: k_line cos(h) / (1 - k_line e), an integral of e for
+    what pushes steadily, and the learnt turn response. The approach angle is bounded so that the robot can still
+    straighten up.
     """
 
     def __init__(
@@ -89,7 +93,7 @@ class LineTracker:
         line = target.path.curvature_at(hit.s + self._params.feedforward_lead * v)
         carried = line * math.cos(heading_error) / max(1.0 - line * hit.lateral, 0.3)
         approach = self._approach(hit.lateral, v, look_ahead)
-        return carried + 2.0 / look_ahead * math.sin(wrap(approach - heading_error))
+        return carried + self._params.heading_gain / look_ahead * math.sin(wrap(approach - heading_error))
 
     def _approach(self, lateral: float, v: float, look_ahead: float) -> float:
         """Wanted heading error, bounded by what turn rate can straighten up within the rest of the offset."""

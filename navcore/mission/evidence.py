@@ -63,7 +63,7 @@ class RowEvidence:
     def judge(
         self, seen: RowObservation, row: RowLine, expected: tuple[SE2, ...], width: float, doubt: Doubt = NO_IDEA
     ) -> bool:
-        """Take one observation; True if it is valid and of the row that is meant.
+        """Take one observation; True if it is seen, not only carried on, and of the row that is meant.
 
         `expected` are the poses of the driving frame in `map` at the time of capture, by all who know it, to `doubt`.
         """
@@ -77,7 +77,7 @@ class RowEvidence:
         return agrees
 
     def _agrees(self, seen: RowObservation, expected: SE2, width: float, reach: tuple[float, float]) -> bool:
-        if not seen.valid or seen.offset is None or seen.heading is None:
+        if not seen.valid or seen.carried or seen.offset is None or seen.heading is None:
             return False
         near = abs(-seen.offset - expected.y) <= reach[0]
         parallel = abs(wrap(-seen.heading - expected.yaw)) <= reach[1]
@@ -97,6 +97,8 @@ class RowEvidence:
         """Why there is no row, in the row worker's words."""
         if self.newest is None:
             return "no picture"
+        if self.newest.carried:
+            return f"no trunk or post on its lines for {self.newest.carried:.1f} m"
         return self.newest.reason or "what it sees is not the row that is meant"
 
 

@@ -53,7 +53,8 @@ class ModeFacts:
         row_follows: the headland leads to another row: its place is known best from the row that is left.
         turn_follows: the straight way out of the row goes over into a turn on the headland.
         looks: the camera shows pictures, whether there is a row in them or not.
-        seen_end: distance ahead at which the camera sees the row end, None if it goes on.
+        seen_end: distance ahead at which the camera sees the row end, None where it sees none.
+        seen_to: distance ahead up to which it sees the row go on, None where it cannot say so.
         gnss_std: 1-sigma of the pose filter's position, m, None without a pose.
         gnss_streak: consecutive good epochs.
     """
@@ -67,6 +68,7 @@ class ModeFacts:
     row_age_s: float | None
     looks: bool
     seen_end: float | None
+    seen_to: float | None
     gnss_std: float | None
     gnss_streak: int
 
@@ -111,8 +113,11 @@ def _at_end(f: ModeFacts, p: ModeSelectorParams) -> bool:
 
 
 def _row_goes_on(f: ModeFacts, p: ModeSelectorParams) -> bool:
-    inside = f.segment is SegmentKind.ROW and f.to_end is not None and f.to_end > p.end_zone
-    return inside and _row_trusted(f, p) and (f.seen_end is None or f.seen_end > p.again)
+    """Near its end plants must be seen beyond: two false ones make the camera lose the end, but no longer row."""
+    if f.segment is not SegmentKind.ROW or f.to_end is None or f.to_end <= p.end_zone:
+        return False
+    ahead = max(f.to_end, f.seen_to or 0.0) if f.seen_end is None else f.seen_end
+    return _row_trusted(f, p) and ahead > p.again
 
 
 def _gnss_good(f: ModeFacts, p: ModeSelectorParams) -> bool:

@@ -249,6 +249,7 @@ class Pilot:
             row_age_s=self.row.age_s(at.now_ns),
             looks=self.row.looks(at.now_ns),
             seen_end=seen.end_distance if seen else None,
+            seen_to=seen.seen_to if seen else None,
             gnss_std=at.gnss_std,
             gnss_streak=at.gnss_streak,
         )

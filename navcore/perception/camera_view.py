@@ -42,7 +42,7 @@ def row_observation(
         objects=len(ground.left_x) + len(ground.right_x), left_seen=lines.left_seen, right_seen=lines.right_seen,
         image_offset=image_offset, image_heading=image_heading, lean=lean.roll if lean else None,
         lean_std=lean.std if lean else None, mount=mount, driven=driven.metres if driven else None,
-        driven_since_ns=driven.since_ns if driven else None,
+        driven_since_ns=driven.since_ns if driven else None, carried=ground.carried,
     )  # fmt: skip
 
 

@@ -39,8 +39,10 @@ class CorridorTrackerParams:
             side over so many metres make one: two trunks and a false box stand in line everywhere.
         alone_share: and that share of the near objects must stand on its lines.
         max_offset_std, max_heading_std_deg: a row less certain than that is not shown.
-        carry, carry_pictures: so far a row is carried without any evidence, m, and for so many pictures: one that
+        carry, carry_pictures: so far a row counts as seen without any evidence, m, and for so many pictures: one that
             stands does not see by remembering.
+        carry_on, carry_on_pictures: so far it is carried on beyond that, told as such, between plants that were seen:
+            of a row's last 3 m nothing is in the picture. past: and so far past the last of them, m: wheels slip.
         lost_share, lost_frames: a track that explains less than that share of the near objects in so many pictures
             in a row is dropped.
         wrong_row: a corridor further from the prior than that share of the width is another row;
@@ -79,6 +81,9 @@ class CorridorTrackerParams:
     max_heading_std_deg: float = 4.0
     carry: float = 1.0
     carry_pictures: int = 50
+    carry_on: float = 4.0
+    carry_on_pictures: int = 150
+    past: float = 0.15
     lost_share: float = 0.34
     lost_frames: int = 4
     wrong_row: float = 0.5
@@ -100,13 +105,34 @@ class Width(NamedTuple):
 
 @dataclass(slots=True)
 class Track:
-    """What is remembered of the last picture; `unseen` and `pictures` since the last evidence, m and a count."""
+    """What is remembered of the last picture; `unseen` and `pictures` since the last evidence, m and a count.
+
+    `reach` is how far ahead the last plants stand that were seen on its lines, m; `told` the pitch by the IMU, rad.
+    """
 
     state: Floats
     covariance: Floats
     unseen: float = 0.0
     pictures: int = 0
     doubts: int = 0
+    reach: float = -math.inf
+    told: float = 0.0
+
+    def see(self, x: Floats) -> None:
+        """Plants (N,) stand on its lines so far ahead, m: the last but one counts, as the last may be a false one."""
+        self.unseen, self.pictures = 0.0, 0
+        if len(x) >= 2:
+            self.reach = max(self.reach, float(np.partition(x, -2)[-2]))
+
+    def carried(self, p: CorridorTrackerParams) -> float:
+        """Metres by which it is carried on; 0 while it counts as seen."""
+        return self.unseen if self.unseen > p.carry else 0.0
+
+    def gone(self, p: CorridorTrackerParams) -> bool:
+        """Unseen for too long, or past its last plants."""
+        if self.carried(p) == 0.0:
+            return self.pictures > p.carry_pictures
+        return self.reach <= -p.past or self.unseen > p.carry_on or self.pictures > p.carry_on_pictures
 
 
 def expected(prior: RowPrior | None, p: CorridorTrackerParams) -> tuple[Floats, Floats]:
@@ -136,7 +162,7 @@ def told_width(prior: RowPrior | None, p: CorridorTrackerParams) -> Width:
 def moved(track: Track, motion: SE2, prior: RowPrior | None, p: CorridorTrackerParams) -> Track:
     """The track seen from the new driving frame, less certain by what was driven and turned.
 
-    The pitch is that of the ground under the robot: it is mostly forgotten from one picture to the next.
+    The pitch is that of the ground under the robot: what it is beyond the told one is soon forgotten.
     """
     offset, heading, width, pitch = track.state
     across = offset + math.sin(heading) * motion.x - math.cos(heading) * motion.y
@@ -148,10 +174,10 @@ def moved(track: Track, motion: SE2, prior: RowPrior | None, p: CorridorTrackerP
     told, told_std = told_pitch(prior, p)
     pitch_var = (1.0 - 0.7**2) * told_std**2
     covariance += np.diag((p.drift_per_m**2 * distance, turn_var, 0.02**2 * distance, pitch_var))
-    state = np.array((across, wrap(heading - motion.yaw), width, told + 0.7 * (pitch - told)))
+    state = np.array((across, wrap(heading - motion.yaw), width, told + 0.7 * (pitch - track.told)))
     return Track(
         state=state, covariance=covariance, unseen=track.unseen + distance, pictures=track.pictures + 1,
-        doubts=track.doubts,
+        doubts=track.doubts, reach=track.reach - motion.x, told=told,
     )  # fmt: skip
 
 

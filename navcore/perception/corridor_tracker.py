@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +20,7 @@ from navcore.perception.corridor_track import (
     furthest,
     moved,
     other_row,
+    told_pitch,
     told_width,
 )
 from navcore.perception.image_lines import image_line
@@ -68,14 +70,16 @@ class CorridorTracker:
         near = int(np.count_nonzero(np.nan_to_num(corridor.x, nan=np.inf) < NEAR_M))
         track.doubts = track.doubts + 1 if near >= 4 and seen < self._params.lost_share * near else 0
         if seen:
-            track.unseen, track.pictures = 0.0, 0
+            track.see(corridor.x[(corridor.sides != 0) & (corridor.x <= self._params.fit.max_range)])
             self._remember(corridor)
+        else:  # plants passed before tell nothing new: odometry carries them as it carries the row
+            corridor = replace(corridor, state=track.state, covariance=track.covariance)
         track.state, track.covariance = corridor.state, corridor.covariance
         reason = self._doubt(track, corridor, len(corners), told)
         if reason:
             self._track = None
             return _nothing(corners, reason)
-        return self._lines(corridor, corners)
+        return self._lines(corridor, corners, track.carried(self._params))
 
     def _start(self, corners: CornerPoints, prior: RowPrior | None) -> RowLines:
         mean, covariance = expected(prior, self._params)
@@ -85,10 +89,12 @@ class CorridorTracker:
         reach = (furthest(prior, float(mean[2]), self._params), turn)
         corridor = self._fit.acquire(corners.feet, mean, _inverse(covariance), reach)
         reason = self._too_little(corridor, prior, len(corners))
-        track = Track(state=corridor.state, covariance=corridor.covariance)
+        told, _ = told_pitch(prior, self._params)
+        track = Track(state=corridor.state, covariance=corridor.covariance, told=told)
         reason = reason or self._doubt(track, corridor, len(corners), told_width(prior, self._params))
         if reason:
             return _nothing(corners, reason)
+        track.see(corridor.x[(corridor.sides != 0) & (corridor.x <= self._params.fit.max_range)])
         self._track = track
         self._passed.forget()
         return self._lines(corridor, corners)
@@ -134,7 +140,7 @@ class CorridorTracker:
         """Why a corridor is not shown, empty if it is."""
         p = self._params
         offset_std, heading_std = np.sqrt(np.diag(track.covariance)[:2])
-        if track.unseen > p.carry or track.pictures > p.carry_pictures:
+        if track.gone(p):
             return "no trunk or post in sight" if objects == 0 else "no trunk or post on the row's lines"
         if track.doubts >= p.lost_frames:
             return "most trunks and posts in sight do not stand on the row's lines"
@@ -146,20 +152,20 @@ class CorridorTracker:
             return f"the row's direction is only known to {math.degrees(heading_std):.0f} deg"
         return ""
 
-    def _lines(self, corridor: Corridor, corners: CornerPoints) -> RowLines:
+    def _lines(self, corridor: Corridor, corners: CornerPoints, carried: float = 0.0) -> RowLines:
         offset, heading, width, pitch = (float(a) for a in corridor.state)
         left, right = (self._image(offset + side * width / 2, heading, pitch) for side in (1.0, -1.0))
         on_left = np.where(corridor.sides == 0, corners.left, corridor.sides > 0)
         return RowLines(
             left=left, right=right, kept=corridor.sides != 0, on_left=on_left,
             left_seen=bool(np.any(corridor.sides > 0)), right_seen=bool(np.any(corridor.sides < 0)),
-            ground=self._ground(corridor),
+            ground=self._ground(corridor, carried),
         )  # fmt: skip
 
     def _image(self, offset: float, heading: float, pitch: float) -> Line2:
         return image_line(self._camera, offset=offset, heading=heading, pitch=pitch)
 
-    def _ground(self, corridor: Corridor) -> GroundRow:
+    def _ground(self, corridor: Corridor, carried: float) -> GroundRow:
         p = self._params
         floor = np.diag((p.floor_offset**2, math.radians(p.floor_heading_deg) ** 2))
         covariance = corridor.covariance[:2, :2] + floor
@@ -169,7 +175,7 @@ class CorridorTracker:
             covariance=covariance, pitch=float(corridor.state[3]),
             left_x=corridor.x[told & (corridor.sides > 0)], right_x=corridor.x[told & (corridor.sides < 0)],
             quality=_quality(corridor, math.sqrt(covariance[0, 0]), p),
-            beside=corridor.xy[(corridor.sides == 0) & np.isfinite(corridor.x)],
+            beside=corridor.xy[(corridor.sides == 0) & np.isfinite(corridor.x)], carried=carried,
         )  # fmt: skip
 
 

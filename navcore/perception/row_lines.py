@@ -64,6 +64,7 @@ class GroundRow:
         left_x, right_x: distances ahead of the driving frame's origin, along x, of the objects on either line.
         quality: 0 to 1.
         beside: (N, 2) feet that stand on neither line, in the driving frame, m.
+        carried: metres by which it is carried on without a plant in sight; 0 while it is seen.
     """
 
     offset: float
@@ -75,6 +76,7 @@ class GroundRow:
     right_x: Floats
     quality: float
     beside: Floats = field(default_factory=lambda: np.empty((0, 2)))
+    carried: float = 0.0
 
     def across(self, side: float, x: Floats) -> Floats:
         """y of the line on that side (+1 left, -1 right, 0 the centre line) at `x` ahead, driving frame, m."""

@@ -104,10 +104,10 @@ class RowPerception:
         ground = self._on_ground(lines, corners)
         bisector = image_bisector(lines.left, lines.right) if lines.left and lines.right else None
         published = published_reading(bisector, self._camera, self._params.look_ahead) if bisector else None
-        shown = None if isinstance(ground, str) else ground
-        reading = self._read_lean(shown, cue)
-        driven = self._odometry.see(shown, cue.motion, stamp_ns)
-        end = self._row_end(shown, cue.motion)
+        seen = None if isinstance(ground, str) or ground.carried else ground
+        reading = self._read_lean(seen, cue)
+        driven = self._odometry.see(seen, cue.motion, stamp_ns)
+        end = self._row_end(seen, cue.motion)
         row = row_observation(
             stamp_ns, camera_name, lines, fault or ground, end, self._seen_to(ground), published, reading, driven
         )  # fmt: skip

@@ -1480,6 +1480,8 @@ export interface components {
          *         driven: metres ahead along the row since it came in sight, by the plants that stand there and not by wheels
          *             that slip; None without a row. driven_since_ns: when it came in sight.
          *         objects: number of trunks and posts that carried the fit.
+         *         carried: metres by which the row is carried on by odometry, between plants that were seen before; 0 while
+         *             it is seen. A carried row is shown, and nothing is decided by it.
          *         left_seen, right_seen: this frame's own evidence for each side (False: carried over from earlier frames).
          *         lean: by so much more than told the camera leans to the side (roll of the driving frame, left side up), rad;
          *             once every few metres, else None. lean_std: 1-sigma.
@@ -1489,6 +1491,11 @@ export interface components {
          */
         RowObservation: {
             camera: components["schemas"]["CameraName"];
+            /**
+             * Carried
+             * @default 0
+             */
+            carried: number;
             /**
              * Correlation
              * @default 0

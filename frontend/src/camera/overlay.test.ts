@@ -60,4 +60,10 @@ describe("layers over the picture", () => {
     expect(shapes.some((shape) => shape.kind === "line")).toBe(false);
     expect(shapes.at(-1)).toEqual({ kind: "banner", text: "No row: 1 trunk within 5 m", good: false });
   });
+
+  test("a row that is only carried on is dashed, and the words say so", () => {
+    const shapes = overlay({ ...VIEW, row: { ...VIEW.row, carried: 2.1, left_seen: false } } as CameraView, ALL_LAYERS);
+    expect(shapes.filter((shape) => shape.kind === "line").every((shape) => shape.dash)).toBe(true);
+    expect(shapes.at(-1)).toEqual({ kind: "banner", text: "Row carried on by odometry for 2.1 m: no trunk or post in sight", good: false });
+  });
 });

@@ -80,7 +80,7 @@ const region = (view: CameraView): Shape[] =>
   view.region ? [{ kind: "area", points: view.region.points, color: OVERLAY_COLORS.region, filled: false }] : [];
 
 const centre = (view: CameraView): Shape[] =>
-  view.centre ? [{ kind: "line", ...view.centre, color: OVERLAY_COLORS.centre, width: 5, dash: false }] : [];
+  view.centre ? [{ kind: "line", ...view.centre, color: OVERLAY_COLORS.centre, width: 5, dash: Boolean(view.row.carried) }] : [];
 
 function rowEnd({ centre: line, row, width_px, height_px }: CameraView): Shape[] {
   if (!row.valid || row.end_distance === null || row.end_distance === undefined) return [];
@@ -90,6 +90,7 @@ function rowEnd({ centre: line, row, width_px, height_px }: CameraView): Shape[]
 
 function words({ row }: CameraView): Shape {
   if (!row.valid) return { kind: "banner", text: `No row: ${row.reason || "no reason given"}`, good: false };
+  if (row.carried) return { kind: "banner", text: `Row carried on by odometry for ${metres(row.carried)}: no trunk or post in sight`, good: false };
   const side = (row.offset ?? 0) >= 0 ? "left" : "right";
   const doubt = row.offset_std ? ` ± ${Math.round(row.offset_std * 100)}` : "";
   const text = `Row: centre ${Math.round(Math.abs(row.offset ?? 0) * 100)}${doubt} cm to the ${side}, quality ${Math.round(row.quality * 100)} %`;

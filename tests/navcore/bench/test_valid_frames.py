@@ -49,7 +49,9 @@ def test_the_last_metres_of_a_row_are_counted_apart_and_nothing_beyond_them() ->
     counts = count_frames(method_fitter(RowMethod.CORRIDOR, CAMERA), CAMERA, drives=1, seed=3, rows=params)
     assert counts.last.frames * 0.1 * params.speed == pytest.approx(LAST_M, abs=0.2)  # m
     assert counts.row.frames + counts.last.frames < 330
-    assert counts.last.abstained > 0  # of the last plants nothing is in sight any more
+    assert counts.last.abstained == 0  # of its last 3 m nothing is in sight: the row is carried on
+    published = count_frames(method_fitter(RowMethod.TEMPORAL_RANSAC, CAMERA), CAMERA, drives=1, seed=3, rows=params)
+    assert published.last.true < counts.last.true
 
 
 def test_lines_beside_the_true_ones_are_not_true_however_many_points_lie_on_them() -> None:

@@ -30,6 +30,7 @@ class Unkind:
     gnss_std: m per axis, `gnss_latency` s old on arrival, 10 Hz.
     heading_std: of the dual antenna, rad.
     creep: m/s of sideways motion per m/s driven (side slope).
+    push: 1-sigma of the turn rate by which the ground pushes the robot round, rad/s, for half a second at a time.
     """
 
     dead_time: float = 0.08
@@ -39,6 +40,7 @@ class Unkind:
     gnss_latency: float = 0.1
     heading_std: float = 0.01
     creep: float = 0.01
+    push: float = 0.0
 
 
 class Plant:
@@ -48,7 +50,7 @@ class Plant:
         self.pose, self._u, self._rng = pose, unkind, rng
         self.v = self.omega = self.wheel_v = self.wheel_omega = 0.0
         self._queue: list[tuple[float, float]] = [(0.0, 0.0)] * round(unkind.dead_time / 0.005)
-        self._slip = 0.0
+        self._slip = self._push = 0.0
 
     def step(self, v: float, omega: float, dt: float) -> None:
         self._queue.append((v, omega))
@@ -58,9 +60,15 @@ class Plant:
         keep = math.exp(-dt / 1.5)
         self._slip = keep * self._slip + math.sqrt(1 - keep * keep) * 0.02 * self._rng.standard_normal()
         self.v = self.wheel_v * (1.0 - 0.02 - self._slip)
-        self.omega = self.wheel_omega / self._u.turn_ratio * (1.0 - self._slip)
+        self.omega = self.wheel_omega / self._u.turn_ratio * (1.0 - self._slip) + self._pushed(dt)
         sideways = SE2(0.0, self._u.creep * self.v * dt, 0.0)
         self.pose = self.pose @ SE2.arc(self.v * dt, self.omega * dt) @ sideways
+
+    def _pushed(self, dt: float) -> float:
+        if self._u.push > 0.0:
+            keep = math.exp(-dt / 0.5)
+            self._push = keep * self._push + math.sqrt(1 - keep * keep) * self._u.push * self._rng.standard_normal()
+        return self._push
 
 
 class Estimator:
@@ -101,10 +109,11 @@ class Estimator:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Drive:
-    """What came out. Attributes: s, lateral: true place along and off the course at each tick, m; speed, omega."""
+    """What came out. Attributes: s, lateral, heading: true pose along and off the course, m, rad; speed, omega."""
 
     s: Floats
     lateral: Floats
+    heading: Floats
     speed: Floats
     omega: Floats
 
@@ -131,7 +140,7 @@ def drive(
     heading = course.heading_at(0.0)
     start = SE2(*course.at(0.0), heading) @ SE2(0.0, start_offset, 0.0)
     plant, estimator = Plant(start, unkind, rng), Estimator(start, unkind, rng)
-    rows: list[tuple[float, float, float, float]] = []
+    rows: list[tuple[float, ...]] = []
     regulation = SpeedRegulation()
     motion, near_s, true_s, dt = Motion(v=0.0, omega=0.0), 0.0, 0.0, TICK_NS * 1e-9
     truth_course = measured_on or course
@@ -153,8 +162,8 @@ def drive(
         motion = estimator.step(plant, dt)
         hit = truth_course.project(plant.pose.x, plant.pose.y, true_s)
         true_s = hit.s
-        rows.append((hit.s, hit.lateral, plant.v, steering.omega))
+        rows.append((hit.s, hit.lateral, wrap(plant.pose.yaw - hit.heading), plant.v, steering.omega))
         if target.remaining <= 0.3:
             break
-    s, lateral, speed, omega = np.array(rows).T
-    return Drive(s=s, lateral=lateral, speed=speed, omega=omega)
+    s, lateral, heading, speed, omega = np.array(rows).T
+    return Drive(s=s, lateral=lateral, heading=heading, speed=speed, omega=omega)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from navcore.control.line_tracker import LineTracker
+from navcore.control.line_tracker import LineTracker, LineTrackerParams
 from navcore.control.pure_pursuit import PurePursuit
 from tests.navcore.control.closed_loop import Unkind, drive
 from tests.navcore.control.courses import curve, straight, zigzag
@@ -48,6 +48,16 @@ def test_a_far_line_is_captured_without_a_swing_past_it(offset: float) -> None:
     overshoot = (-np.sign(offset) * driven.lateral).max()
     assert overshoot < 0.15
     assert driven.mean_from(15.0) < 0.05
+
+
+def test_rough_ground_turns_the_robot_less_than_it_would_pure_pursuit() -> None:
+    rough, course = Unkind(push=0.05), straight().slice(0.0, 60.0)
+    ours, theirs = (
+        drive(course, tracker, seed=108, unkind=rough, look_ahead=1.0, start_offset=0.0, v=0.6)
+        for tracker in (LineTracker(), LineTracker(LineTrackerParams(heading_gain=2.0)))
+    )
+    assert np.abs(ours.heading).mean() < 0.85 * np.abs(theirs.heading).mean()
+    assert ours.mean < theirs.mean
 
 
 def test_the_turn_response_of_the_ground_is_learnt() -> None:

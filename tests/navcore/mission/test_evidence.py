@@ -35,9 +35,18 @@ def test_the_row_where_it_is_expected_is_the_one_that_is_meant() -> None:
 
 
 @pytest.mark.parametrize(
-    "other", [{"offset": 1.6}, {"heading": 0.3}, {"width": 6.0}, {"width": 1.5}, {"quality": 0.1}, {"valid": False}]
+    "other",
+    [
+        {"offset": 1.6},
+        {"heading": 0.3},
+        {"width": 6.0},
+        {"width": 1.5},
+        {"quality": 0.1},
+        {"valid": False},
+        {"carried": 1.1},
+    ],
 )
-def test_a_row_elsewhere_askew_or_of_another_width_is_not(other: dict[str, Any]) -> None:
+def test_a_row_elsewhere_askew_of_another_width_or_out_of_sight_is_not(other: dict[str, Any]) -> None:
     assert not judged(replace(SEEN, **other))
 
 

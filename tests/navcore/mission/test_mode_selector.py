@@ -11,7 +11,8 @@ from navcore.mission.mode_selector import ModeFacts, ModeSelectorParams, select_
 PARAMS = ModeSelectorParams()
 OPEN_ROAD = ModeFacts(
     segment=SegmentKind.ROAD, to_start=None, to_end=None, row_follows=False, turn_follows=False,
-    row_streak=0, row_age_s=None, looks=True, seen_end=None, gnss_std=0.02, gnss_streak=100,
+    row_streak=0, row_age_s=None, looks=True, seen_end=None, seen_to=None, gnss_std=0.02,
+    gnss_streak=100,
 )  # fmt: skip
 BEFORE_ROW = replace(OPEN_ROAD, segment=SegmentKind.ENTRY, to_start=3.0, to_end=63.0, row_streak=5, row_age_s=0.1)
 IN_ROW = replace(BEFORE_ROW, segment=SegmentKind.ROW, to_start=-30.0, to_end=30.0, gnss_std=1.5, gnss_streak=0)
@@ -60,6 +61,15 @@ def test_an_end_that_is_seen_counts_before_its_last_plants_leave_the_picture() -
     assert mode_after(NavMode.ROW, replace(near, seen_end=None)) is NavMode.ROW
     gap_mid_row = replace(near, to_end=40.0)
     assert mode_after(NavMode.ROW, gap_mid_row) is NavMode.ROW
+
+
+def test_a_row_goes_on_beyond_its_seeming_end_where_plants_are_seen_there() -> None:
+    gap = replace(IN_ROW, to_end=3.5)
+    assert mode_after(NavMode.ROW_END, gap) is NavMode.ROW_END
+    assert mode_after(NavMode.ROW_END, replace(gap, to_end=20.0)) is NavMode.ROW
+    assert mode_after(NavMode.ROW_END, replace(gap, seen_to=2.5)) is NavMode.ROW_END
+    assert mode_after(NavMode.ROW_END, replace(gap, seen_to=8.0)) is NavMode.ROW
+    assert mode_after(NavMode.ROW_END, replace(gap, seen_end=8.0)) is NavMode.ROW
 
 
 def test_a_place_that_slides_back_over_the_entry_does_not_end_the_row_ahead() -> None:

@@ -92,7 +92,7 @@ def test_a_net_trained_on_four_pictures_finds_them_from_its_file(tmp_path: Path)
     draw_set(tmp_path / "set", 4, 3)
     samples = read_samples(tmp_path / "set")
     params = TrainerParams(
-        epochs=110, batch=4, learning_rate=8e-3, average=0.9, device="cpu", validate_every=1.0,
+        epochs=160, batch=4, learning_rate=8e-3, average=0.9, device="cpu", validate_every=1.0,
         architecture=YoloArchitecture(params=TINY),
         augment=AugmentParams(width_px=512, height_px=384, scale=1.02, stretch=1.0, gain=1.0, gamma=1.0, noise=0.0),
     )  # fmt: skip
