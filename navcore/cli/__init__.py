@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import typer
 
-from navcore.cli import dataset, evaluate, export, replay, report, run, score, see, train
+from navcore.cli import dataset, decode_rplidar, evaluate, export, replay, report, run, score, see, train
 from navcore.cli.bench import bench_app
 from navcore.cli.decode import decode_app
 
@@ -12,6 +12,7 @@ app = typer.Typer(
     name="rowpilot", help="Onboard operator station for orchard and vineyard robots.", no_args_is_help=True
 )
 app.add_typer(bench_app, name="bench")
+decode_rplidar.register(decode_app)
 app.add_typer(decode_app, name="decode")
 dataset.register(app)
 evaluate.register(app)

@@ -22,11 +22,6 @@ COLUMNS = (
 WIDTHS = (24, 14, 15, 10, 15, 13, 12)
 
 
-@decode_app.callback()
-def verbs() -> None:
-    """Keeps `gnss` a verb of its own while it is the only one."""
-
-
 @decode_app.command("gnss")
 def decode_gnss(
     file: Annotated[
