@@ -58,7 +58,7 @@ class WorldFaults:
 
     Attributes:
         gnss_silent: the receiver sends nothing. gnss_frozen: fresh times, old position.
-        corrections_lost: no RTK corrections arrive.
+        corrections_lost: no RTK corrections arrive. gnss_off: it lies by so much east and north, m.
         imu_silent, imu_frozen: likewise.
         wheels_frozen: the chassis reports its last wheel state with fresh stamps.
         stuck: the wheels turn and the robot stays.
@@ -68,6 +68,7 @@ class WorldFaults:
     gnss_silent: bool = False
     gnss_frozen: bool = False
     corrections_lost: bool = False
+    gnss_off: tuple[float, float] = (0.0, 0.0)
     imu_silent: bool = False
     imu_frozen: bool = False
     wheels_frozen: bool = False
@@ -198,8 +199,8 @@ class World:
         vx = d.v * c - d.lateral_v * s - d.omega * float(lever[1])
         vy = d.v * s + d.lateral_v * c + d.omega * float(lever[0])
         return AntennaState(
-            x=d.x + float(lever[0]),
-            y=d.y + float(lever[1]),
+            x=d.x + float(lever[0]) + self.faults.gnss_off[0],
+            y=d.y + float(lever[1]) + self.faults.gnss_off[1],
             z=float(lever[2]),
             vx=vx,
             vy=vy,

@@ -9,7 +9,7 @@ from dataclasses import replace
 from navcore.chassis.protocol import GuardState, VehicleState
 from navcore.maps.mission import RowExit
 from navcore.maps.site_map import SiteMap
-from navcore.messages import NavMode, RequestKind, RunState
+from navcore.messages import FixQuality, NavMode, RequestKind, RunState
 from navcore.planning.mission_planner import mission_for_row
 from navcore.runtime.lockstep import Tick
 from navcore.sim.world import WorldParams
@@ -117,6 +117,26 @@ def test_silent_gnss_slows_then_stops_on_the_road(park: Park, farm: SiteMap) -> 
     seconds_until(drive, lambda t: t.decision.status.state is RunState.STOPPED, limit=3.0)
     seconds_until(drive, stands, limit=2.0)
     assert "GNSS" in drive.ticks[-1].decision.status.stop_reason
+
+
+def test_gnss_without_a_fix_that_is_apart_from_the_pose_is_waited_for(park: Park, farm: SiteMap) -> None:
+    drive = on_the_road(park, farm)
+    world = drive.lockstep.world
+    world.faults = replace(world.faults, corrections_lost=True)
+    seconds_until(drive, lambda t: t.decision.status.gnss_quality is FixQuality.RTK_FLOAT, limit=30.0)
+    world.faults = replace(world.faults, gnss_off=(0.0, 3.0))
+    seconds_until(drive, lambda t: "pose_apart" in events(t), limit=20.0)
+    seconds_until(drive, stands, limit=3.0)
+    world.faults = replace(world.faults, corrections_lost=False, gnss_off=(0.0, 0.0))
+    seconds_until(drive, lambda t: t.truth.v > 0.3, limit=60.0)
+    assert drive.ticks[-1].decision.status.state is RunState.DRIVING
+
+
+def test_a_fixed_position_that_jumps_stops_the_robot_for_a_human(park: Park, farm: SiteMap) -> None:
+    drive = on_the_road(park, farm)
+    drive.lockstep.world.faults = replace(drive.lockstep.world.faults, gnss_off=(0.0, 3.0))
+    seconds_until(drive, lambda t: t.decision.status.state is RunState.STOPPED, limit=10.0)
+    assert "position is in doubt" in drive.ticks[-1].decision.status.stop_reason
 
 
 def test_silent_gnss_does_not_matter_in_the_row(park: Park, farm: SiteMap) -> None:
