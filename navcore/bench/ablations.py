@@ -10,9 +10,9 @@ from navcore.geometry.line2 import Line2
 from navcore.geometry.pinhole import PinholeCamera
 from navcore.perception.corner_points import CornerPoints
 from navcore.perception.corridor_fit import CorridorFitParams, foot_rays
-from navcore.perception.corridor_kernels import best_lines
 from navcore.perception.corridor_track import CorridorTrackerParams
 from navcore.perception.corridor_tracker import CorridorTracker
+from navcore.perception.line_consensus import best_lines
 from navcore.perception.passed_plants import PassedPlantsParams
 from navcore.perception.row_lines import RowCue, RowLines, away_from_camera, missing_side
 

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from navcore.perception.corridor_fit import CorridorFitParams
-from navcore.perception.corridor_kernels import best_lines
+from navcore.perception.line_consensus import best_lines
 from navcore.perception.row_ransac import RansacParams, best_inliers
 
 Floats = NDArray[np.float64]

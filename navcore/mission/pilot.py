@@ -10,11 +10,11 @@ from navcore.localization.path_anchor import HALF_TURN, PathAnchor
 from navcore.localization.row_filter import look_noise
 from navcore.localization.row_line import RowLine
 from navcore.messages import CameraName, MissionPlan, ModeSwitch, NavMode, PathSegment, RowObservation, SegmentKind
+from navcore.mission.along_row import AlongRow
 from navcore.mission.evidence import NO_IDEA, Doubt, RowEvidence
 from navcore.mission.look_back import LeftRow, LookBack
 from navcore.mission.mode_selector import ALONG_ROW, CARRIED, ON_CAMERA, ModeFacts, select_mode, start_reason
 from navcore.mission.pilot_params import PilotParams
-from navcore.mission.plant_odometer import PlantOdometer
 from navcore.mission.position import Position
 from navcore.mission.route import Leg, Place, Route, row_length
 
@@ -28,7 +28,7 @@ class Pilot:
         self.anchor = PathAnchor(T_map_base @ start.T_odom_base.inverse(), params.anchor)
         self.row = RowEvidence(params.row)
         self.look_back = LookBack(self.anchor, params.row)
-        self._odometer = PlantOdometer(self.anchor)
+        self._along = AlongRow(self.anchor, params.along)
         self.carried = 0.0
         self.arrived = self.captured = False
         self._comes_from_gnss = True
@@ -143,25 +143,13 @@ class Pilot:
             self.anchor.see_row(row, T_odom_drive, seen.offset, seen.heading, noise)
             self.carried = 0.0
         if self.mode in ALONG_ROW:
-            self._see_along(seen, row, T_odom_drive, row_length(segment))
+            at_end = self.mode is NavMode.ROW_END
+            self._along.see(seen, row, T_odom_drive, row_length(segment), at_end=at_end)
 
     def _turned_to_row(self, row: RowLine, T_odom_drive: SE2) -> bool:
         """Before the next row and turned to it: seen so, it puts right what the wheels got wrong in the turn."""
         at = row.coordinates(self.anchor.T_map_odom @ T_odom_drive)
         return self.sees_row and at.x < 0.0 and abs(at.yaw) <= self.params.turned_to
-
-    def _see_along(self, seen: RowObservation, row: RowLine, T_odom_drive: SE2, length: float) -> None:
-        """Correct the place along the row by its end, or by its having none yet; from then on by its last plants."""
-        if seen.end_distance is None and self.mode is NavMode.ROW:
-            self._odometer.begin()
-        else:
-            T_map_drive = self.anchor.T_map_odom @ T_odom_drive
-            self._odometer.take(row, T_map_drive, seen.driven, seen.driven_since_ns)
-        if seen.end_distance is not None:
-            self.anchor.see_along(row, T_odom_drive, length - seen.end_distance, self.params.end_std)
-        elif seen.seen_to is not None:
-            sure = self.params.seen_share * min(seen.seen_to, self.params.seen_range)
-            self.anchor.see_no_end(row, T_odom_drive, length - sure)
 
     def _expected(self, T_odom_drive: SE2) -> tuple[SE2, ...]:
         """Poses of the driving frame at a capture: by the anchor, and before the entrance by what led there too.
@@ -194,9 +182,8 @@ class Pilot:
 
     def _look_out(self) -> None:
         """Ahead, or back at the row that is being left once nothing is in sight ahead."""
-        seen = self.row.agreeing
-        ends = seen is not None and seen.end_distance is not None and seen.end_distance < self.params.blind
-        if self.look_back.choose(self.mode, self.segment, self.sees_row and not ends):
+        sees_ahead = self.sees_row and not self._along.past_last_plants(self.row.agreeing)
+        if self.look_back.choose(self.mode, self.segment, sees_ahead):
             self.row.forget()
 
     def _choose_mode(self, at: Position) -> ModeSwitch | None:

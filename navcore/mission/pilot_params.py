@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from navcore.localization.path_anchor import PathAnchorParams
+from navcore.mission.along_row import AlongRowParams
 from navcore.mission.evidence import RowEvidenceParams
 from navcore.mission.mode_selector import ModeSelectorParams
 
@@ -21,11 +22,6 @@ class PilotParams:
         drift_std: position 1-sigma at which GNSS tells how odometry drifts while the path is carried by it, m.
         turned_to: by so much the robot may be turned away from the next row that it drives up to, rad, for the camera
             to say where that row lies.
-        end_std: 1-sigma of the row end's distance as the camera sees it, m.
-        blind: a row that ends closer ahead than that has no more plants in the picture, m.
-        seen_range: plants further away say nothing sure about where the row ends, m.
-        seen_share: share of the distance up to which the row is seen to go on that is believed: a camera that pitches
-            by half a degree sees 10 m as 11.
     """
 
     arrival: float = 0.12
@@ -34,10 +30,7 @@ class PilotParams:
     look_out: float = 4.0
     drift_std: float = 0.05
     turned_to: float = 0.35
-    end_std: float = 0.4
-    blind: float = 3.0
-    seen_range: float = 7.0
-    seen_share: float = 0.9
     anchor: PathAnchorParams = field(default_factory=PathAnchorParams)
+    along: AlongRowParams = field(default_factory=AlongRowParams)
     row: RowEvidenceParams = field(default_factory=RowEvidenceParams)
     mode: ModeSelectorParams = field(default_factory=ModeSelectorParams)

@@ -6,10 +6,13 @@ import math
 
 import numpy as np
 
-from navcore.geometry.pinhole import PinholeCamera, rotation_from_rpy
+from navcore.geometry.pinhole import PinholeCamera, robot_camera, rotation_from_rpy
 from navcore.geometry.se2 import SE2
-from navcore.messages import DetectedObject, ObjectKind
-from navcore.perception.detector import Image
+from navcore.messages import CameraName, CameraView, DetectedObject, ObjectKind
+from navcore.perception.detector import Image, Told
+from navcore.perception.row_perception import RowPerception
+
+FRONT = robot_camera()
 
 
 def picture(camera: PinholeCamera) -> Image:
@@ -49,3 +52,15 @@ def corridor_feet(
     along = np.arange(start, end + 1e-6, spacing)
     feet = np.stack(np.meshgrid(along, sides), axis=-1).reshape(-1, 2)
     return pose.inverse().apply(feet)
+
+
+def drive(perception: RowPerception, told: Told, poses: list[SE2], **orchard: object) -> list[CameraView]:
+    """Pictures along `poses`, with the motion in between."""
+    views: list[CameraView] = []
+    last: SE2 | None = None
+    for i, pose in enumerate(poses):
+        told.objects = boxes_at(FRONT, corridor_feet(pose, **orchard))  # type: ignore[arg-type]
+        motion = last.inverse() @ pose if last else None
+        views.append(perception.process(picture(FRONT), i, CameraName.FRONT, motion=motion))
+        last = pose
+    return views
