@@ -74,7 +74,7 @@ class CorridorTrackerParams:
     sure_std: float = 0.2
     sure_objects: int = 2
     alone_side: int = 2
-    alone_objects: int = 7
+    alone_objects: int = 8
     alone_span: float = 1.5
     alone_share: float = 0.6
     max_offset_std: float = 0.22
