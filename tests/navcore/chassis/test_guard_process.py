@@ -10,6 +10,7 @@ import sys
 import tempfile
 import time
 from collections.abc import Iterator
+from contextlib import closing
 from pathlib import Path
 
 import pytest
@@ -148,12 +149,11 @@ def test_2_a_guard_that_hung_does_not_obey_what_waited_for_it(rig: Rig) -> None:
 def test_8_a_bus_that_falls_silent_latches_and_stays_so_when_it_returns(rig: Rig) -> None:
     rig.drive()
     rig.chassis.close()
-    listener = Listener(rig.endpoints)
-    assert "0x221" in listener.wait_for_guard(GuardState.LATCHED).guard_reason
-    rig.chassis = ChassisModel(rig.port)
-    heard = listener.hear()
-    wait_for(lambda: listener.hear().stamp_ns > heard.stamp_ns, "the chassis' return")
-    listener.close()
+    with closing(Listener(rig.endpoints)) as listener:
+        assert "0x221" in listener.wait_for_guard(GuardState.LATCHED).guard_reason
+        rig.chassis = ChassisModel(rig.port)
+        heard = listener.hear()
+        wait_for(lambda: listener.hear().stamp_ns > heard.stamp_ns, "the chassis' return")
     assert stays_stopped(rig)
 
 
