@@ -69,7 +69,7 @@ class RecordBuilder:
                 self._add_decision(message)
             case CameraView():
                 self.views.append(view_mark(message))
-            case RowObservation() if message.valid and not message.carried:
+            case RowObservation() if message.in_sight:
                 self.evidence_ns.append(message.stamp_ns)
             case GnssFix() if message.quality is FixQuality.RTK_FIXED:
                 self.evidence_ns.append(message.stamp_ns)

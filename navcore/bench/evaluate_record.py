@@ -77,7 +77,7 @@ def view_mark(view: CameraView) -> ViewMark:
     """The mark of a picture. The published reading: the angle of the fitted centre line in the image plane."""
     line = view.centre
     angle = None if line is None else float(np.arctan2(line.u1 - line.u0, line.v0 - line.v1))
-    return ViewMark(stamp_ns=view.stamp_ns, valid=view.row.valid and not view.row.carried, angle=angle)
+    return ViewMark(stamp_ns=view.stamp_ns, valid=view.row.in_sight, angle=angle)
 
 
 def drawn_rows(plan: MissionPlan) -> tuple[TrueRow, ...]:

@@ -131,6 +131,11 @@ class RowObservation:
     lean_std: float | None = None
     mount: CameraMount | None = None
 
+    @property
+    def in_sight(self) -> bool:
+        """There is a line, and plants were seen that carry it: what may be decided by."""
+        return self.valid and self.carried == 0.0
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CameraView:

@@ -77,7 +77,7 @@ class RowEvidence:
         return agrees
 
     def _agrees(self, seen: RowObservation, expected: SE2, width: float, reach: tuple[float, float]) -> bool:
-        if not seen.valid or seen.carried or seen.offset is None or seen.heading is None:
+        if not seen.in_sight or seen.offset is None or seen.heading is None:
             return False
         near = abs(-seen.offset - expected.y) <= reach[0]
         parallel = abs(wrap(-seen.heading - expected.yaw)) <= reach[1]

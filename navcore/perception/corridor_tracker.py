@@ -70,7 +70,7 @@ class CorridorTracker:
         near = int(np.count_nonzero(np.nan_to_num(corridor.x, nan=np.inf) < NEAR_M))
         track.doubts = track.doubts + 1 if near >= 4 and seen < self._params.lost_share * near else 0
         if seen:
-            track.see(corridor.x[(corridor.sides != 0) & (corridor.x <= self._params.fit.max_range)])
+            track.see(corridor.x[(corridor.sides != 0) & self._in_range(corridor)])
             self._remember(corridor)
         else:  # plants passed before tell nothing new: odometry carries them as it carries the row
             corridor = replace(corridor, state=track.state, covariance=track.covariance)
@@ -94,7 +94,7 @@ class CorridorTracker:
         reason = reason or self._doubt(track, corridor, len(corners), told_width(prior, self._params))
         if reason:
             return _nothing(corners, reason)
-        track.see(corridor.x[(corridor.sides != 0) & (corridor.x <= self._params.fit.max_range)])
+        track.see(corridor.x[(corridor.sides != 0) & self._in_range(corridor)])
         self._track = track
         self._passed.forget()
         return self._lines(corridor, corners)
@@ -165,11 +165,15 @@ class CorridorTracker:
     def _image(self, offset: float, heading: float, pitch: float) -> Line2:
         return image_line(self._camera, offset=offset, heading=heading, pitch=pitch)
 
+    def _in_range(self, corridor: Corridor) -> NDArray[np.bool_]:
+        """Which feet are near enough to tell where the row ends."""
+        return np.asarray(corridor.x <= self._params.fit.max_range)
+
     def _ground(self, corridor: Corridor, carried: float) -> GroundRow:
         p = self._params
         floor = np.diag((p.floor_offset**2, math.radians(p.floor_heading_deg) ** 2))
         covariance = corridor.covariance[:2, :2] + floor
-        told = corridor.x <= p.fit.max_range  # what stands beyond it says nothing sure of the row's end
+        told = self._in_range(corridor)
         return GroundRow(
             offset=float(corridor.state[0]), heading=float(corridor.state[1]), width=float(corridor.state[2]),
             covariance=covariance, pitch=float(corridor.state[3]),
