@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Callable
 from dataclasses import dataclass
 
 from navcore.drivers.byte_source import ByteSource
+from navcore.drivers.kept_connection import KeptConnection
 from navcore.drivers.rplidar.protocol import Command, express_scan, motor_speed, request
 from navcore.drivers.rplidar.revolutions import Revolution, Revolutions
 from navcore.drivers.rplidar.stream import RplidarStream
@@ -33,8 +33,8 @@ class RplidarParams:
     reconnect_s: float = 1.0
 
 
-class RplidarReader:
-    """Reads until stopped; a connection that is lost or silent is opened again. `problem` is a sentence, or empty.
+class RplidarReader(KeptConnection):
+    """Reads until stopped; a connection that is lost or silent is opened again.
 
     Args:
         open_source: opens the connection; OSError while there is none.
@@ -46,40 +46,16 @@ class RplidarReader:
         self, open_source: Callable[[], ByteSource], deliver: Callable[[Revolution], None], clock: Callable[[], int],
         params: RplidarParams = RplidarParams(),
     ) -> None:  # fmt: skip
-        self._open_source, self._deliver, self._clock, self._params = open_source, deliver, clock, params
-        self._stopping = threading.Event()
-        self._thread = threading.Thread(target=self._run, name="rplidar-reader", daemon=True)
-        self.problem = "not connected yet"
-        self.connections = 0
+        self._deliver, self._clock, self._params = deliver, clock, params
+        super().__init__("rplidar-reader", open_source, self._scan, params.reconnect_s)
 
-    def start(self) -> None:
-        """Begin to read."""
-        self._thread.start()
-
-    def stop(self) -> None:
-        """Stop the sensor, end the thread and close the connection."""
-        self._stopping.set()
-        self._thread.join()
-
-    def _run(self) -> None:
-        while not self._stopping.is_set():
-            try:
-                self._read_one_connection()
-            except OSError as error:
-                self.problem = str(error)
-            self._stopping.wait(self._params.reconnect_s)
-
-    def _read_one_connection(self) -> None:
-        source = self._open_source()
-        self.connections += 1
-        try:
-            self._ask_health(source)
-            source.write(motor_speed(self._params.rpm))
-            source.write(self._params.scan)
-            self._read_turns(source)
-            source.write(request(Command.STOP))
-        finally:
-            source.close()
+    def _scan(self, source: ByteSource) -> None:
+        """Until the reader is stopped; then the sensor is as well."""
+        self._ask_health(source)
+        source.write(motor_speed(self._params.rpm))
+        source.write(self._params.scan)
+        self._read_turns(source)
+        source.write(request(Command.STOP))
 
     def _ask_health(self, source: ByteSource) -> None:
         """What still streams from an earlier connection is passed over until the answer comes."""
@@ -87,7 +63,7 @@ class RplidarReader:
         source.write(request(Command.GET_HEALTH))
         stream, late_ns = RplidarStream(), self._clock() + int(self._params.answer_s * 1e9)
         while stream.health is None:
-            if self._clock() > late_ns or self._stopping.is_set():
+            if self._clock() > late_ns or not self.going:
                 heard = (
                     "only noise: is the speed of its port right?" if stream.refused else "nothing: is it switched on?"
                 )
@@ -99,7 +75,7 @@ class RplidarReader:
 
     def _read_turns(self, source: ByteSource) -> None:
         stream, turns, heard_ns = RplidarStream(), Revolutions(), self._clock()
-        while not self._stopping.is_set():
+        while self.going:
             data, now_ns = source.read(), self._clock()
             for rays in stream.feed(data):
                 heard_ns = now_ns
