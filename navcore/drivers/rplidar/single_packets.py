@@ -10,17 +10,18 @@ import numpy as np
 from navcore.drivers.rplidar.rays import Rays, clockwise
 
 _HQ_SYNC = 0xA5
+_STANDARD = np.dtype([("first", "u1"), ("angle", "<u2"), ("distance", "<u2")])
 _HQ_RAYS = np.dtype([("angle", "<u2"), ("distance", "<u4"), ("quality", "u1"), ("flag", "u1")])
 
 
-def standard_ray(data: bytes) -> Rays | None:
-    """One ray of five bytes; None if its start bits or its check bit are wrong."""
-    first, angle, distance = struct.unpack("<BHH", data)
-    if first & 1 == first >> 1 & 1 or not angle & 1:
-        return None
-    return clockwise(
-        np.array(((angle >> 1) / 64.0,)), np.array((distance / 4000.0,)), np.array((first >> 2,), dtype=np.int64)
-    )
+def standard_rays(data: bytes) -> Rays:
+    """Rays of five bytes each, up to the first one whose start bits or check bit are wrong."""
+    packets = np.frombuffer(data, _STANDARD, count=len(data) // _STANDARD.itemsize)
+    first, angle = packets["first"].astype(np.int64), packets["angle"].astype(np.int64)
+    wrong = (first & 1 == first >> 1 & 1) | (angle & 1 == 0)
+    sound = int(np.argmax(wrong)) if wrong.any() else len(packets)
+    distance = packets["distance"][:sound].astype(np.float64) / 4000.0
+    return clockwise((angle[:sound] >> 1) / 64.0, distance, first[:sound] >> 2)
 
 
 def hq_rays(data: bytes) -> Rays | None:

@@ -11,7 +11,7 @@ from navcore.drivers.rplidar.capsule import Capsule, open_capsule
 from navcore.drivers.rplidar.capsule_formats import FORMATS
 from navcore.drivers.rplidar.protocol import ANSWER_FLAGS, HEADER_BYTES, Answer, AnswerHeader, DeviceInfo, Health
 from navcore.drivers.rplidar.rays import Rays, clockwise
-from navcore.drivers.rplidar.single_packets import hq_rays, standard_ray
+from navcore.drivers.rplidar.single_packets import hq_rays, standard_rays
 
 
 class Refused(StrEnum):
@@ -55,12 +55,22 @@ class RplidarStream:
             return self._begin()
         if len(self._buffer) < self._header.size:
             return self._break_off()
+        if self._header.kind is Answer.STANDARD:
+            return self._run(self._header.size, found)
         rays = self._packet(bytes(self._buffer[: self._header.size]))
         if rays is None:
             return self._begin_anew()
         if len(rays.angle):
             found.append(rays)
         return self._header.size
+
+    def _run(self, size: int, found: list[Rays]) -> int:
+        """All standard packets at once: they hold one ray each, and come thousands of times a second."""
+        rays = standard_rays(bytes(self._buffer))
+        if not len(rays.angle):
+            return self._begin_anew()
+        found.append(rays)
+        return size * len(rays.angle)
 
     def _begin(self) -> int:
         """Look for the beginning of an answer."""
@@ -116,8 +126,6 @@ class RplidarStream:
     def _packet(self, data: bytes) -> Rays | None:
         """Rays of one packet, none for the first capsule of a sequence; None if it is no packet."""
         kind = self.kind
-        if kind is Answer.STANDARD:
-            return standard_ray(data)
         if kind is Answer.HQ:
             return hq_rays(data)
         if kind not in FORMATS:

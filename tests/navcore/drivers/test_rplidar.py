@@ -9,7 +9,7 @@ import pytest
 
 from navcore.drivers.rplidar.protocol import Answer, Command, express_scan, motor_speed, request
 from navcore.drivers.rplidar.revolutions import Revolution, Revolutions
-from navcore.drivers.rplidar.single_packets import standard_ray
+from navcore.drivers.rplidar.single_packets import standard_rays
 from navcore.drivers.rplidar.stream import Refused, RplidarStream
 from navcore.sim.rplidar_device import RplidarDevice
 from tests.navcore.drivers.rplidar_scenes import POLE_DEG, room, room_with_pole
@@ -80,8 +80,7 @@ def test_near_things_beside_far_ones_begin_no_new_turn() -> None:
 
 
 def test_one_known_packet_of_each_single_kind() -> None:
-    ray = standard_ray(bytes((0x3E, 0x01 | 0x2D00 << 1 & 0xFF, 0x2D00 << 1 >> 8, 0xA0, 0x0F)))
-    assert ray is not None
+    ray = standard_rays(bytes((0x3E, 0x01 | 0x2D00 << 1 & 0xFF, 0x2D00 << 1 >> 8, 0xA0, 0x0F)))
     assert (-math.degrees(ray.angle[0]), ray.distance[0], ray.quality[0]) == pytest.approx((180.0, 1.0, 15))
     stream = RplidarStream()
     stream.feed(bytes.fromhex("a55a1400000004") + bytes((0x18, 29, 1, 7)) + bytes(range(16)))
