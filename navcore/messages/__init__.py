@@ -20,6 +20,7 @@ from navcore.messages.camera import (
 from navcore.messages.mission_plan import USUAL_WIDTH, MissionPlan, PathSegment, Point, SegmentKind
 from navcore.messages.recorder import RecorderStatus
 from navcore.messages.request import LinkLossPolicy, Reply, Request, RequestKind
+from navcore.messages.scan import LidarScan
 from navcore.messages.sensing import FixQuality, GnssFix, ImuSample
 from navcore.messages.simulation import SimContact, SimFarm, SimTruth, TrueRow
 from navcore.messages.status import ActiveEvent, ModeSwitch, NavMode, NavStatus, PoseEstimate, RunState
@@ -40,6 +41,7 @@ __all__ = [
     "ImageLine",
     "ImagePoint",
     "ImuSample",
+    "LidarScan",
     "LinkLossPolicy",
     "MissionPlan",
     "ModeSwitch",

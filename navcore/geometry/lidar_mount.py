@@ -1,0 +1,38 @@
+"""Where a 2D LiDAR sits on the robot: its rays' ends in the robot's frame."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from navcore.geometry.pinhole import rotation_from_rpy
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LidarMount:
+    """Mount of `lidar2d` in `base_link` (whose origin lies on the ground under the robot's centre).
+
+    Attributes:
+        x, y, z: the sensor's centre, m.
+        roll, pitch, yaw: rad; pitch positive looks down. A sensor mounted upside down has a roll of pi.
+    """
+
+    x: float
+    y: float
+    z: float
+    roll: float = 0.0
+    pitch: float = 0.0
+    yaw: float = 0.0
+
+    def R_base_lidar(self) -> Floats:
+        """Rotation from the sensor's axes to `base_link`, shape (3, 3)."""
+        return rotation_from_rpy(self.roll, self.pitch, self.yaw)
+
+    def ends(self, angles: Floats, distances: Floats) -> Floats:
+        """Where rays end, (N, 3) in `base_link`, m."""
+        flat = np.column_stack((distances * np.cos(angles), distances * np.sin(angles), np.zeros(len(angles))))
+        return np.asarray(flat @ self.R_base_lidar().T + (self.x, self.y, self.z))
