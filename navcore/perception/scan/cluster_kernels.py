@@ -1,0 +1,95 @@
+"""Compiled arithmetic of the clusters in scan order. `scan_clusters` wraps it and tells what the numbers mean."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+
+@njit(cache=True)
+def runs(distances: Floats, near: float, far: float, step: float, jump: float, slope: float, bridge: int) -> Ints:
+    """First and last ray of each thing, (K, 2): runs of rays whose ends lie close to each other.
+
+    `step` between rays, rad. Two neighbours are of one thing if their ranges differ by less than `jump` and by less
+    than a surface does that the rays meet at `slope` rad; up to `bridge` rays between them may have come back empty.
+    """
+    found = np.empty((len(distances), 2), dtype=np.int64)
+    k, last = -1, -1
+    for i in range(len(distances)):
+        r = distances[i]
+        if not near <= r <= far:
+            continue
+        reach = jump + min(r, distances[last]) * step * (i - last) / math.tan(slope) if last >= 0 else 0.0
+        if last < 0 or i - last > bridge + 1 or abs(r - distances[last]) > reach:
+            k += 1
+            found[k, 0] = i
+        found[k, 1] = i
+        last = i
+    return found[: k + 1]
+
+
+@njit(cache=True)
+def circle(angles: Floats, distances: Floats, first: int, last: int, step: float, far: float) -> tuple[float, ...]:
+    """Circle of the rays `first` to `last`: bearing and range of its centre, radius, rays used, and the RMS residual.
+
+    Its silhouette tells the radius, its near side the range: n rays `step` apart that hit it span n steps, and a
+    circle of radius R at range rho spans 2 asin(R / rho).
+    """
+    bearing = 0.5 * (angles[first] + angles[last])
+    half = 0.5 * (abs(angles[last] - angles[first]) + step)
+    sine = math.sin(min(half, 1.2))
+    rho, radius, used = 0.0, 0.0, 0
+    for _ in range(3):
+        total, used = 0.0, 0
+        for i in range(first, last + 1):
+            if 0.0 < distances[i] <= far:
+                total += distances[i] + _bulge(angles[i] - bearing, rho, radius)
+                used += 1
+        front = total / used  # range of the point that is nearest
+        radius = front * sine / (1.0 - sine)
+        rho = front + radius
+    squares = 0.0
+    for i in range(first, last + 1):
+        if 0.0 < distances[i] <= far:
+            squares += (distances[i] - (rho - radius - _bulge(angles[i] - bearing, rho, radius))) ** 2
+    return bearing, rho, radius, float(used), math.sqrt(squares / used)
+
+
+@njit(cache=True)
+def _bulge(off: float, rho: float, radius: float) -> float:
+    """How much further a circle's nearest point is than where the ray `off` rad beside its centre ends: <= 0."""
+    aside = rho * math.sin(off)
+    return rho - radius - (rho * math.cos(off) - math.sqrt(max(radius * radius - aside * aside, 0.0)))
+
+
+@njit(cache=True)
+def hidden_edge(distances: Floats, first: int, last: int, nearer: float, beside: int) -> float:
+    """1 if something nearer than that stands within `beside` rays of either edge, else 0."""
+    for k in range(1, beside + 1):
+        if first - k >= 0 and 0.0 < distances[first - k] < nearer:
+            return 1.0
+        if last + k < len(distances) and 0.0 < distances[last + k] < nearer:
+            return 1.0
+    return 0.0
+
+
+@njit(cache=True)
+def things(
+    angles: Floats, distances: Floats, near: float, far: float, step: float, jump: float, slope: float, bridge: int,
+    margin: float, beside: int,
+) -> Floats:  # fmt: skip
+    """All things of a scan, (K, 8): as `circle` tells them, first and last ray, and whether an edge is hidden."""
+    found = runs(distances, near, far, step, jump, slope, bridge)
+    out = np.empty((len(found), 8))
+    for k in range(len(found)):
+        first, last = found[k]
+        bearing, rho, radius, used, rms = circle(angles, distances, first, last, step, far)
+        cut = hidden_edge(distances, first, last, rho - margin, beside)
+        out[k] = bearing, rho, radius, used, rms, float(first), float(last), cut
+    return out
