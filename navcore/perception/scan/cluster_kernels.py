@@ -70,7 +70,9 @@ def _bulge(off: float, rho: float, radius: float) -> float:
 
 @njit(cache=True)
 def hidden_edge(distances: Floats, first: int, last: int, nearer: float, beside: int) -> float:
-    """1 if something nearer than that stands within `beside` rays of either edge, else 0."""
+    """1 if something nearer than that stands within `beside` rays of either edge, or the turn ends there, else 0."""
+    if first == 0 or last == len(distances) - 1:
+        return 1.0
     for k in range(1, beside + 1):
         if first - k >= 0 and 0.0 < distances[first - k] < nearer:
             return 1.0

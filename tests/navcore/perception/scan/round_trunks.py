@@ -15,7 +15,7 @@ def scan_of(
     centres: Floats, diameters: Floats, *, noise: float = 0.0, seed: int = 1, rays: int = RAYS
 ) -> tuple[Floats, Floats]:
     """Angles and distances (N,) of one turn to the right about the origin; 0 where no trunk is met within range."""
-    angles = -np.arange(rays) * (2.0 * np.pi / rays)
+    angles = -np.arange(rays, dtype=np.float64) * (2.0 * np.pi / rays)
     way = np.column_stack((np.cos(angles), np.sin(angles)))
     along = way @ np.asarray(centres, dtype=np.float64).reshape(-1, 2).T
     aside2 = np.sum(np.asarray(centres).reshape(-1, 2) ** 2, axis=1) - along**2
