@@ -1,0 +1,142 @@
+"""Follows trunks and posts from scan to scan, around the robot and some metres behind it. Ours.
+
+They stand still in a frame of the tracker's own, in which each scan also tells where the robot is: odometry only
+leads to the place where the scan is laid over the plants. What a scan cannot know, which of the uprights are trunks,
+the camera tells in time.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from navcore.geometry.lidar_mount import LidarMount
+from navcore.geometry.se2 import SE2
+from navcore.perception.plants.plant_evidence import PlantEvidence, PlantEvidenceParams
+from navcore.perception.plants.scan_alignment import ScanAlignmentParams, align, matches
+from navcore.perception.plants.scanned_plants import ScannedPlants, no_plants
+from navcore.perception.scan.scan_clusters import ScanTrunks
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PlantTrackerParams:
+    """Parameters of `PlantTracker`.
+
+    Attributes:
+        alignment: of a scan with the plants. evidence: that an upright is a trunk or a post.
+        gate: a trunk of the scan belongs to a plant nearer than that, m.
+        steady: 1-sigma by which a plant's place may wander between two scans, m: the tracker's frame is not perfect.
+        least_std: no plant is known better than that, m: bark, lean.
+        anchors: plants met in so many scans tell where the robot is.
+        behind: plants further away than that are forgotten, m.
+        young: one that is not met again is forgotten after so many scans, if it was met in fewer than `anchors`.
+    """
+
+    alignment: ScanAlignmentParams = ScanAlignmentParams()
+    evidence: PlantEvidenceParams = PlantEvidenceParams()
+    gate: float = 0.2
+    steady: float = 0.002
+    least_std: float = 0.008
+    anchors: int = 3
+    behind: float = 14.0
+    young: int = 4
+
+
+class PlantTracker:
+    """One LiDAR's. Feed it every scan in order, or `forget` in between."""
+
+    def __init__(self, mount: LidarMount, params: PlantTrackerParams = PlantTrackerParams()) -> None:
+        self._mount, self._params = mount, params
+        self.forget()
+
+    def forget(self) -> None:
+        """The next scan does not follow the last one."""
+        self._pose, self._next = SE2(), 0
+        self._plants = no_plants()
+        self._since_hit: Ints = np.empty(0, dtype=np.int64)
+        self._evidence = PlantEvidence(self._params.evidence)
+
+    def see(self, trunks: ScanTrunks, motion: SE2, turn: SE2 = SE2()) -> SE2:
+        """Take in a scan; the motion since the last one as the plants tell it.
+
+        `motion` is `base_link` at this scan's stamp in `base_link` at the last one's, by odometry; `turn` the part of
+        it that was driven while the sensor turned.
+        """
+        p, before = self._params, self._pose
+        xy, std = self._in_base(trunks, turn), np.maximum(trunks.range_std, trunks.range * trunks.bearing_std)
+        known = self._plants.hits >= p.anchors
+        at, at_std = self._plants.xy[known], self._plants.std[known]
+        self._pose = align(before @ motion, motion, xy, std, at, at_std, p.alignment)
+        self._take_in(self._pose.apply(xy), std, trunks)
+        self._clear()
+        return before.inverse() @ self._pose
+
+    def plants(self, since: SE2 = SE2()) -> ScannedPlants:
+        """All that were met more than once, in `base_link`, the robot having driven `since` after the last scan."""
+        seen = self._plants.hits >= 2
+        now = self._plants.only(seen).seen_from((self._pose @ since).inverse())
+        return ScannedPlants(
+            number=now.number, xy=now.xy, std=now.std, diameter=now.diameter, hits=now.hits,
+            sureness=self._evidence.sureness()[seen],
+        )  # fmt: skip
+
+    def told_by_camera(self, boxed: Ints, blank: Ints) -> None:
+        """Numbers of the plants that a picture shows as trunks or posts, and of those that it should and does not."""
+        numbers = self._plants.number
+        self._evidence.see(np.isin(numbers, boxed), np.isin(numbers, blank))
+
+    def _in_base(self, trunks: ScanTrunks, turn: SE2) -> Floats:
+        """Centres (K, 2) in `base_link` at the scan's stamp: what was met earlier was met from further back."""
+        early = 1.0 - trunks.moment
+        xy = self._mount.ends(trunks.bearing, trunks.range)[:, :2]
+        yaw = -early * turn.yaw
+        c, s = np.cos(yaw), np.sin(yaw)
+        x, y = xy[:, 0] - early * turn.x, xy[:, 1] - early * turn.y
+        return np.column_stack((c * x - s * y, s * x + c * y))
+
+    def _take_in(self, xy: Floats, std: Floats, trunks: ScanTrunks) -> None:
+        mine, theirs = matches(xy, self._plants.xy, self._params.gate)
+        self._since_hit += 1
+        self._since_hit[theirs] = 0
+        self._blend(xy[mine], std[mine], trunks.diameter[mine], trunks.cut[mine], theirs)
+        new = np.setdiff1d(np.arange(len(xy)), mine)
+        self._add(xy[new], std[new], trunks.diameter[new])
+        self._evidence.met(theirs, trunks.diameter[mine], trunks.roughness[mine], trunks.cut[mine])
+        self._evidence.add(trunks.diameter[new], trunks.roughness[new], trunks.cut[new])
+
+    def _blend(self, xy: Floats, std: Floats, diameter: Floats, cut: NDArray[np.bool_], i: Ints) -> None:
+        """A Kalman step for each plant `i`; of one that is cut the diameter tells nothing."""
+        p, plants = self._params, self._plants
+        variance = plants.std[i] ** 2 + p.steady**2
+        gain = variance / (variance + std**2)
+        plants.xy[i] += gain[:, None] * (xy - plants.xy[i])
+        plants.std[i] = np.maximum(np.sqrt((1.0 - gain) * variance), p.least_std)
+        share = np.where(cut, 0.0, 1.0 / np.minimum(plants.hits[i] + 1, 30))
+        plants.diameter[i] += share * (diameter - plants.diameter[i])
+        plants.hits[i] += 1
+
+    def _add(self, xy: Floats, std: Floats, diameter: Floats) -> None:
+        n, old = len(xy), self._plants
+        self._plants = ScannedPlants(
+            number=np.concatenate((old.number, self._next + np.arange(n))), xy=np.vstack((old.xy, xy)),
+            std=np.concatenate((old.std, std)), diameter=np.concatenate((old.diameter, diameter)),
+            hits=np.concatenate((old.hits, np.ones(n, dtype=np.int64))), sureness=np.zeros(len(old) + n),
+        )  # fmt: skip
+        self._since_hit = np.concatenate((self._since_hit, np.zeros(n, dtype=np.int64)))
+        self._next += n
+
+    def _clear(self) -> None:
+        """Forget what is far behind, and what was met once and not again."""
+        p, plants = self._params, self._plants
+        apart = np.hypot(plants.xy[:, 0] - self._pose.x, plants.xy[:, 1] - self._pose.y)
+        fleeting = (plants.hits < p.anchors) & (self._since_hit > p.young)
+        kept = (apart <= p.behind) & ~fleeting
+        if kept.all():
+            return
+        self._plants, self._since_hit = plants.only(kept), self._since_hit[kept]
+        self._evidence.keep(kept)
