@@ -15,9 +15,15 @@ from numpy.typing import NDArray
 
 from navcore.geometry.pinhole import PinholeCamera
 from navcore.perception import corridor_kernels as kernels
+from navcore.perception.scan_evidence import ScanEvidence, nothing_scanned
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
+
+# A scanned plant counts among those that stand in a row if it is as sure as that.
+SURE = 0.5
+# Nearer ones tell nothing of the camera's pitch, m: their feet are hidden, or at the picture's edge.
+NEAREST_PAIR = 0.8
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -54,18 +60,26 @@ class Corridor:
         state: (4,).
         covariance: (4, 4).
         sides: (N,) +1 for a foot on the left line, -1 on the right, 0 for one that is no evidence.
-        xy: (N, 2) where the feet stand in the driving frame, m; NaN where not on the ground.
+        xy: (N, 2) where the feet stand in the driving frame, m; NaN where not on the ground. A foot that belongs to
+            a scanned plant stands where that does.
+        told_x, told_sides: (K,) of all plants, feet and scanned ones, each once: how far ahead, m, and side.
     """
 
     state: Floats
     covariance: Floats
     sides: Ints
     xy: Floats
+    told_x: Floats
+    told_sides: Ints
 
     @property
     def x(self) -> Floats:
         """(N,) distance of the feet ahead of the driving frame's origin, m."""
         return self.xy[:, 0]
+
+    def on_sides(self) -> tuple[int, int]:
+        """How many plants stand on the left line, and on the right one."""
+        return int(np.count_nonzero(self.told_sides > 0)), int(np.count_nonzero(self.told_sides < 0))
 
 
 class CorridorFit:
@@ -78,33 +92,60 @@ class CorridorFit:
         scale = camera.width_px / 640 / camera.fx
         self._noise = (params.foot_u_px * scale, params.foot_v_px * scale, params.plant_std, params.curve)
 
-    def acquire(self, feet: Floats, mean: Floats, information: Floats, reach: tuple[float, float]) -> Corridor:
+    def acquire(
+        self, feet: Floats, mean: Floats, information: Floats, reach: tuple[float, float],
+        scan: ScanEvidence | None = None,
+    ) -> Corridor:  # fmt: skip
         """The best corridor for feet (N, 2), pixels, over all whose offset and heading lie within `reach` (m, rad)
         of the prior's.
         """
-        rays, used = self._rays(feet, self._params.max_range, self._params.max_points)
-        p, rays_used = self._params, rays[used]
-        start, _ = kernels.acquire(rays_used, mean, information, self._mount, self._noise, p.lines, p.tries, reach)
-        return self._refine(start, rays, used, mean, information, 1.0)
+        p, scan = self._params, scan or nothing_scanned(len(feet))
+        rays, used = self._rays(feet, scan, p.max_range, p.max_points)
+        scanned = self._scanned(scan, rays, p.max_range, p.max_points)
+        start, _ = kernels.acquire(
+            rays[used], scanned, mean, information, self._mount, self._noise, p.lines, p.tries, reach
+        )  # fmt: skip
+        return self._refine(start, rays, used, scan, mean, information, 1.0)
 
-    def follow(self, feet: Floats, mean: Floats, information: Floats) -> Corridor:
+    def follow(self, feet: Floats, mean: Floats, information: Floats, scan: ScanEvidence | None = None) -> Corridor:
         """The corridor near the predicted one."""
-        rays, used = self._rays(feet, self._params.far_range, self._params.far_points)
-        return self._refine(mean, rays, used, mean, information, 2.0)
+        scan = scan or nothing_scanned(len(feet))
+        rays, used = self._rays(feet, scan, self._params.far_range, self._params.far_points)
+        return self._refine(mean, rays, used, scan, mean, information, 2.0)
 
     def _refine(
-        self, start: Floats, rays: Floats, used: Ints, mean: Floats, information: Floats, widen: float
-    ) -> Corridor:
-        z, after, found = kernels.refine(start, rays[used], mean, information, self._mount, self._noise, 5, widen)
-        sides = np.zeros(len(rays), dtype=np.int64)
+        self, start: Floats, rays: Floats, used: Ints, scan: ScanEvidence, mean: Floats, information: Floats,
+        widen: float,
+    ) -> Corridor:  # fmt: skip
+        scanned = self._scanned(scan, rays, math.inf, len(scan.plants))
+        z, after, found, plant_sides = kernels.refine(
+            start, rays[used], scanned, mean, information, self._mount, self._noise, 5, widen
+        )  # fmt: skip
+        sides, xy = np.zeros(len(rays), dtype=np.int64), self._on_ground(rays, float(z[3]))
         sides[used] = found
-        covariance = np.asarray(np.linalg.inv(after), dtype=np.float64)
-        return Corridor(state=z, covariance=covariance, sides=sides, xy=self._on_ground(rays, float(z[3])))
+        paired = scan.paired >= 0
+        sides[paired], xy[paired] = plant_sides[scan.paired[paired]], scan.plants[scan.paired[paired], :2]
+        sure = scan.plants[:, 3] >= SURE
+        return Corridor(
+            state=z, covariance=np.asarray(np.linalg.inv(after), dtype=np.float64), sides=sides, xy=xy,
+            told_x=np.concatenate((xy[~paired, 0], scan.plants[sure, 0])),
+            told_sides=np.concatenate((sides[~paired], plant_sides[sure])),
+        )  # fmt: skip
 
-    def _rays(self, feet: Floats, furthest: float, most: int) -> tuple[Floats, Ints]:
-        """Rays (N, 2) as (s, t), and the indices of the nearest of those that come down within range."""
+    def _scanned(self, scan: ScanEvidence, rays: Floats, furthest: float, most: int) -> kernels.Scanned:
+        """The nearest `most` plants up to `furthest` m away, and pairs (P, 2) of feet that are plants well ahead."""
+        away = np.hypot(scan.plants[:, 0], scan.plants[:, 1])
+        near = np.argsort(away, kind="stable")[:most]
+        feet = np.flatnonzero(scan.paired >= 0)
+        pairs = np.column_stack((rays[feet, 1], scan.plants[scan.paired[feet], 0] - self._camera.x))
+        told = np.isfinite(pairs[:, 0]) & (pairs[:, 1] > NEAREST_PAIR)
+        return scan.plants[near[away[near] <= furthest]], pairs[told]
+
+    def _rays(self, feet: Floats, scan: ScanEvidence, furthest: float, most: int) -> tuple[Floats, Ints]:
+        """Rays (N, 2) as (s, t), and the indices of the nearest in range that are no scanned plant's feet."""
         rays = foot_rays(self._camera, feet)
-        in_range = np.flatnonzero(np.isfinite(rays[:, 1]) & (rays[:, 1] > self._camera.z / furthest))
+        alone = np.isfinite(rays[:, 1]) & (scan.paired < 0)
+        in_range = np.flatnonzero(alone & (rays[:, 1] > self._camera.z / furthest))
         nearest = np.argsort(-rays[in_range, 1], kind="stable")[:most]
         return rays, in_range[nearest]
 

@@ -18,8 +18,11 @@ from numba import njit
 from numpy.typing import NDArray
 
 from navcore.perception.line_consensus import GATE, Floats, Mount, Noise, best_lines
+from navcore.perception.plant_kernels import add_pairs, add_plants, best_plant_lines, plants_score
 
 Ints = NDArray[np.int64]
+# Plants (M, 4) and pairs (P, 2), see `plant_kernels`.
+Scanned = tuple[Floats, Floats]
 
 
 @njit(cache=True)
@@ -60,11 +63,13 @@ def nearer_side(z: Floats, s: float, t: float, mount: Mount, noise: Noise, row: 
 
 
 @njit(cache=True)
-def score(z: Floats, rays: Floats, mean: Floats, information: Floats, mount: Mount, noise: Noise) -> float:
+def score(
+    z: Floats, rays: Floats, plants: Floats, mean: Floats, information: Floats, mount: Mount, noise: Noise
+) -> float:
     """Log likelihood over "all points are clutter", prior included; objects inside the corridor speak against it."""
     row = np.empty(4)
     d = z - mean
-    total = -0.5 * float(d @ information @ d)
+    total = -0.5 * float(d @ information @ d) + plants_score(z, plants, noise)
     for i in range(len(rays)):
         e, _ = nearer_side(z, rays[i, 0], rays[i, 1], mount, noise, row)
         if abs(e) < GATE:
@@ -86,14 +91,15 @@ def _inside(z: Floats, s: float, t: float, mount: Mount) -> bool:
 
 @njit(cache=True)
 def refine(
-    z: Floats, rays: Floats, mean: Floats, information: Floats, mount: Mount, noise: Noise, steps: int, widen: float
-) -> tuple[Floats, Floats, Ints]:
-    """Robust Gauss-Newton from z: state, its information (4, 4), and each ray's side (+1, -1, 0 for none).
+    z: Floats, rays: Floats, scanned: Scanned, mean: Floats, information: Floats, mount: Mount, noise: Noise,
+    steps: int, widen: float,
+) -> tuple[Floats, Floats, Ints, Ints]:  # fmt: skip
+    """Robust Gauss-Newton from z: state, its information (4, 4), each ray's and each plant's side (+1, -1, 0).
 
     The gate starts `widen` times as wide and closes to its size, so that a start that is off still finds the line.
     """
-    z = z.copy()
-    sides = np.zeros(len(rays), dtype=np.int64)
+    z, (plants, pairs) = z.copy(), scanned
+    sides, plant_sides = np.zeros(len(rays), dtype=np.int64), np.zeros(len(plants), dtype=np.int64)
     hessian = information.copy()
     row = np.empty(4)
     for step in range(steps):
@@ -111,10 +117,12 @@ def refine(
                 gradient[a] += w * e * row[a]
                 for b in range(4):
                     hessian[a, b] += w * row[a] * row[b]
+        add_plants(z, plants, noise, loose, hessian, gradient, plant_sides)
+        add_pairs(z, pairs, mount, noise, loose, hessian, gradient)
         z = z - np.linalg.solve(hessian, gradient)
         z[1] = min(1.2, max(-1.2, z[1]))
         z[3] = min(0.15, max(-0.15, z[3]))
-    return z, hessian, sides
+    return z, hessian, sides, plant_sides
 
 
 @njit(cache=True)
@@ -153,22 +161,24 @@ def hypotheses(lines: Floats, width: float, mount: Mount) -> Floats:
 
 @njit(cache=True)
 def acquire(
-    rays: Floats, mean: Floats, information: Floats, mount: Mount, noise: Noise, lines: int, tries: int,
-    reach: tuple[float, float],
+    rays: Floats, scanned: Scanned, mean: Floats, information: Floats, mount: Mount, noise: Noise, lines: int,
+    tries: int, reach: tuple[float, float],
 ) -> tuple[Floats, float]:  # fmt: skip
     """The best corridor within `reach` (m, rad) of the prior's offset and heading, the `tries` best of which are
     refined; its score.
     """
-    states = hypotheses(best_lines(rays, lines, mount, noise), mean[2], mount)
+    plants = scanned[0]
+    found = np.vstack((best_lines(rays, lines, mount, noise), best_plant_lines(plants, lines, mount, noise)))
+    states = hypotheses(found, mean[2], mount)
     first = np.empty(len(states))
     for i in range(len(states)):
-        first[i] = score(states[i], rays, mean, information, mount, noise)
+        first[i] = score(states[i], rays, plants, mean, information, mount, noise)
         if _beyond(states[i], mean, reach, 1.3):
             first[i] = -1e9
-    best, best_score = mean.copy(), score(mean, rays, mean, information, mount, noise)
+    best, best_score = mean.copy(), score(mean, rays, plants, mean, information, mount, noise)
     for i in np.argsort(-first, kind="mergesort")[:tries]:
-        z, _, _ = refine(states[i], rays, mean, information, mount, noise, 6, 2.0)
-        value = score(z, rays, mean, information, mount, noise)
+        z, _, _, _ = refine(states[i], rays, scanned, mean, information, mount, noise, 6, 2.0)
+        value = score(z, rays, plants, mean, information, mount, noise)
         if value > best_score and not _beyond(z, mean, reach, 1.0):
             best, best_score = z, value
     return best, best_score

@@ -61,11 +61,11 @@ def best_lines(rays: Floats, count: int, mount: Mount, noise: Noise) -> Floats:
             if abs(m) < 1.5 and abs(b) < MOST_B:
                 found[k] = m, b, _support(m, b, across, down, weights)
                 k += 1
-    return _different(found[:k], count)
+    return different_lines(found[:k], count)
 
 
 @njit(cache=True)
-def _different(found: Floats, count: int) -> Floats:
+def different_lines(found: Floats, count: int) -> Floats:
     """The best, then the best of those that are another line, and so on."""
     kept, left = np.zeros((count, 3)), np.ones(len(found), dtype=np.bool_)
     for n in range(count):

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from navcore.geometry.line2 import Line2
 from navcore.geometry.se2 import SE2
 from navcore.perception.corner_points import CornerPoints
+from navcore.perception.scan_evidence import ScanEvidence
 
 Floats = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -47,10 +48,12 @@ class RowCue:
         prior: the expected row.
         motion: pose of the driving frame in that of the previous picture; None if not known, then nothing of the
             previous picture is used.
+        scan: what a 2D LiDAR adds, of the same corner points; None without one.
     """
 
     prior: RowPrior | None = None
     motion: SE2 | None = None
+    scan: ScanEvidence | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

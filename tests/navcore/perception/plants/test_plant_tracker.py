@@ -22,21 +22,18 @@ def orchard(seed: int = 1, length: float = 30.0) -> tuple[np.ndarray, np.ndarray
     """Places (N, 2) and diameters (N,) of trunks on four lines along x."""
     rng = np.random.default_rng(seed)
     along = np.arange(-6.0, length, 1.4)
-    xy = np.array([(x, y) for y in (-3.75, -1.25, 1.25, 3.75) for x in along]) + rng.normal(
-        0.0, 0.06, (4 * len(along), 2)
-    )
+    xy = np.array([(x, y) for y in (-3.75, -1.25, 1.25, 3.75) for x in along])
+    xy += rng.normal(0.0, 0.06, xy.shape)
     return xy, rng.uniform(0.05, 0.15, len(xy))
 
 
-def scans(
-    tracker: PlantTracker, count: int, *, slip: float = 1.0, turn: float = 0.0, noise: float = 0.01
-) -> list[SE2]:
+def scans(tracker: PlantTracker, count: int, *, slip: float = 1.0, turn: float = 0.0) -> list[SE2]:
     """Drive along x through the orchard; the true poses. Odometry tells `slip` times the way and the turn."""
     xy, diameters = orchard()
     pose, poses, told = SE2(), [SE2()], SE2()
     for i in range(count):
         seen = (pose @ LIDAR).inverse().apply(xy)
-        angles, distances = scan_of(seen, diameters, noise=noise, seed=i)
+        angles, distances = scan_of(seen, diameters, noise=0.01, seed=i)
         tracker.see(ScanClusters().find(angles, distances), told)
         step = SE2.arc(SPEED, turn)
         poses.append(pose)
