@@ -14,7 +14,6 @@ from navcore.config import RobotConfig
 from navcore.maps.mission import Mission
 from navcore.maps.site_map import SiteMap
 from navcore.messages import (
-    CameraName,
     CameraRequest,
     CameraView,
     MissionPlan,
@@ -79,7 +78,7 @@ class PixelEye:
         scene = Scene(orchard, light)
         self._renderers = {n: CameraRenderer(orchard, c, light, scene=scene) for n, c in cameras.items()}
         perceptions = {n: RowPerception(c, detector, config.perception) for n, c in cameras.items()}
-        self._eye = RowEye(perceptions, cameras[CameraName.FRONT].z)
+        self._eye = RowEye(perceptions, cameras)
         self._frames = 0
 
     def look(self, truth: SimTruth, request: CameraRequest) -> CameraView:

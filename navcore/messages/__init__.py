@@ -16,6 +16,8 @@ from navcore.messages.camera import (
     ImagePoint,
     ObjectKind,
     RowObservation,
+    RowSource,
+    ScannedPlant,
 )
 from navcore.messages.mission_plan import USUAL_WIDTH, MissionPlan, PathSegment, Point, SegmentKind
 from navcore.messages.recorder import RecorderStatus
@@ -58,7 +60,9 @@ __all__ = [
     "Request",
     "RequestKind",
     "RowObservation",
+    "RowSource",
     "RunState",
+    "ScannedPlant",
     "SegmentKind",
     "SimContact",
     "SimFarm",

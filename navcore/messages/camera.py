@@ -59,6 +59,35 @@ class ImageArea:
     points: tuple[tuple[float, float], ...]
 
 
+class RowSource(StrEnum):
+    """Which sensors a row was seen with."""
+
+    CAMERA = "camera"
+    LIDAR = "lidar"
+    FUSED = "fused"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ScannedPlant:
+    """A trunk or post that the 2D LiDAR follows, at the moment of the picture.
+
+    Attributes:
+        number: of the plant, the same as long as it is followed.
+        x, y: centre in the camera's driving frame, m. diameter: m.
+        sureness: 0 to 1, that it is a trunk or a post.
+        side: 1 on the row's left line, -1 on its right one, 0 on none.
+        object: which of the picture's objects it is, None if the camera does not see it.
+    """
+
+    number: int
+    x: float
+    y: float
+    diameter: float
+    sureness: float
+    side: int
+    object: int | None = None
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CameraMount:
     """How a camera is mounted, as the plants tell that it was driven up to; each with its 1-sigma.
@@ -102,6 +131,8 @@ class RowObservation:
         lean: by so much more than told the camera leans to the side (roll of the driving frame, left side up), rad;
             once every few metres, else None. lean_std: 1-sigma.
         mount: how the camera is mounted, told together with `lean`.
+        source: the sensors that it was seen with. missing: what is wrong with a sensor that should have helped, in a
+            sentence; empty when all is well.
         image_offset, image_heading: paper A's reading of the image's bisector: lateral deviation of the centre line
             at the look-ahead depth, m, and its angle to the image's vertical, rad; both positive to the left.
     """
@@ -130,6 +161,8 @@ class RowObservation:
     lean: float | None = None
     lean_std: float | None = None
     mount: CameraMount | None = None
+    source: RowSource = RowSource.CAMERA
+    missing: str = ""
 
     @property
     def in_sight(self) -> bool:
@@ -142,7 +175,7 @@ class CameraView:
     """A picture's description for the browser; the camera's own JPEG travels beside it in the same message.
 
     `centre` is the corridor's centre line on the ground, `bisector` the published one in the image. `left_band` and
-    `right_band` are where the lines lie with 95 %, `region` is where corner points count.
+    `right_band` are where the lines lie with 95 %, `region` is where corner points count. `plants` are scanned ones.
     """
 
     stamp_ns: int
@@ -160,6 +193,7 @@ class CameraView:
     left_band: ImageArea | None = None
     right_band: ImageArea | None = None
     region: ImageArea | None = None
+    plants: tuple[ScannedPlant, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+from numpy.typing import NDArray
+
 from navcore.geometry.line2 import Line2
 from navcore.geometry.pinhole import PinholeCamera
 from navcore.messages import (
@@ -14,10 +17,12 @@ from navcore.messages import (
     ImageLine,
     ImagePoint,
     RowObservation,
+    ScannedPlant,
 )
 from navcore.perception.corner_points import CornerPoints
 from navcore.perception.image_lines import image_line
 from navcore.perception.lean_watch import Reading
+from navcore.perception.plants.scanned_plants import ScannedPlants
 from navcore.perception.row_bands import row_band
 from navcore.perception.row_lines import GroundRow, RowLines
 from navcore.perception.row_odometry import Driven
@@ -44,6 +49,27 @@ def row_observation(
         lean_std=lean.std if lean else None, mount=mount, driven=driven.metres if driven else None,
         driven_since_ns=driven.since_ns if driven else None, carried=ground.carried,
     )  # fmt: skip
+
+
+def scanned_plants(
+    plants: ScannedPlants, sides: NDArray[np.int64], found: NDArray[np.int64]
+) -> tuple[ScannedPlant, ...]:
+    """Each with its side of the row, (M,) or none, and the object of the picture that it is: `found` (N,) tells."""
+    on = sides if len(sides) else np.zeros(len(plants), dtype=np.int64)
+    objects = {int(plant): i for i, plant in enumerate(found) if plant >= 0}
+    rows = zip(plants.number, plants.xy, plants.diameter, plants.sureness, on, strict=True)
+    return tuple(
+        ScannedPlant(
+            number=int(n),
+            x=float(x),
+            y=float(y),
+            diameter=float(d),
+            sureness=float(p),
+            side=int(s),
+            object=objects.get(k),
+        )
+        for k, (n, (x, y), d, p, s) in enumerate(rows)
+    )
 
 
 def camera_view(

@@ -62,6 +62,7 @@ class Corridor:
         sides: (N,) +1 for a foot on the left line, -1 on the right, 0 for one that is no evidence.
         xy: (N, 2) where the feet stand in the driving frame, m; NaN where not on the ground. A foot that belongs to
             a scanned plant stands where that does.
+        plant_sides: (M,) likewise, of the scanned plants.
         told_x, told_sides: (K,) of all plants, feet and scanned ones, each once: how far ahead, m, and side.
     """
 
@@ -69,6 +70,7 @@ class Corridor:
     covariance: Floats
     sides: Ints
     xy: Floats
+    plant_sides: Ints
     told_x: Floats
     told_sides: Ints
 
@@ -128,7 +130,7 @@ class CorridorFit:
         sure = scan.plants[:, 3] >= SURE
         return Corridor(
             state=z, covariance=np.asarray(np.linalg.inv(after), dtype=np.float64), sides=sides, xy=xy,
-            told_x=np.concatenate((xy[~paired, 0], scan.plants[sure, 0])),
+            plant_sides=plant_sides, told_x=np.concatenate((xy[~paired, 0], scan.plants[sure, 0])),
             told_sides=np.concatenate((sides[~paired], plant_sides[sure])),
         )  # fmt: skip
 

@@ -83,7 +83,7 @@ class CorridorTracker:
         if reason:
             self._track = None
             return _nothing(corners, reason)
-        return self._lines(corridor, corners, track.carried(self._params))
+        return self._lines(corridor, corners, scan, track.carried(self._params))
 
     def _start(self, corners: CornerPoints, scan: ScanEvidence, prior: RowPrior | None) -> RowLines:
         mean, covariance = expected(prior, self._params)
@@ -101,7 +101,7 @@ class CorridorTracker:
         track.see(corridor.told_x[self._on_lines(corridor)])
         self._track = track
         self._passed.forget()
-        return self._lines(corridor, corners)
+        return self._lines(corridor, corners, scan)
 
     def _remember(self, corridor: Corridor) -> None:
         """A robot that turns into the row has passed no plant of it."""
@@ -159,14 +159,14 @@ class CorridorTracker:
             return f"the row's direction is only known to {math.degrees(heading_std):.0f} deg"
         return ""
 
-    def _lines(self, corridor: Corridor, corners: CornerPoints, carried: float = 0.0) -> RowLines:
+    def _lines(self, corridor: Corridor, corners: CornerPoints, scan: ScanEvidence, carried: float = 0.0) -> RowLines:
         offset, heading, width, pitch = (float(a) for a in corridor.state)
         left, right = (self._image(offset + side * width / 2, heading, pitch) for side in (1.0, -1.0))
         on_left = np.where(corridor.sides == 0, corners.left, corridor.sides > 0)
         return RowLines(
             left=left, right=right, kept=corridor.sides != 0, on_left=on_left,
             left_seen=corridor.on_sides()[0] > 0, right_seen=corridor.on_sides()[1] > 0,
-            ground=self._ground(corridor, carried),
+            ground=self._ground(corridor, carried, len(scan.plants) > 0), plant_sides=corridor.plant_sides,
         )  # fmt: skip
 
     def _image(self, offset: float, heading: float, pitch: float) -> Line2:
@@ -176,7 +176,7 @@ class CorridorTracker:
         """Which plants stand on the lines, and near enough to tell where the row ends."""
         return np.asarray((corridor.told_sides != 0) & (corridor.told_x <= self._params.fit.max_range))
 
-    def _ground(self, corridor: Corridor, carried: float) -> GroundRow:
+    def _ground(self, corridor: Corridor, carried: float, scanned: bool) -> GroundRow:
         p = self._params
         floor = np.diag((p.floor_offset**2, math.radians(p.floor_heading_deg) ** 2))
         covariance = corridor.covariance[:2, :2] + floor
@@ -188,6 +188,7 @@ class CorridorTracker:
             left_x=x[sides > 0], right_x=x[sides < 0],
             quality=_quality(corridor, math.sqrt(covariance[0, 0]), p),
             beside=corridor.xy[(corridor.sides == 0) & np.isfinite(corridor.x)], carried=carried,
+            scanned=scanned,
         )  # fmt: skip
 
 

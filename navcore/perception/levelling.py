@@ -5,7 +5,10 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
+import numpy as np
+
 from navcore.messages import USUAL_WIDTH, RowObservation
+from navcore.perception.plants.scanned_plants import ScannedPlants
 
 
 def upright_offset(offset: float, width: float, height: float, roll: float) -> float:
@@ -23,6 +26,14 @@ def leaning_offset(offset: float, width: float, height: float, roll: float) -> f
     beside = offset + height * math.sin(roll)
     left, right = (_turned(beside + side * width / 2, height, -roll) for side in (1.0, -1.0))
     return (left + right) / 2
+
+
+def leaning_plants(plants: ScannedPlants, camera_height: float, scan_height: float, roll: float) -> ScannedPlants:
+    """Plants in the leaning driving frame, seen at `scan_height`, where a leaning camera sees their feet (m, rad)."""
+    beside = plants.xy[:, 1] + (camera_height - scan_height) * math.sin(roll)
+    limit = math.radians(85.0)
+    angle = np.clip(np.arctan2(beside, camera_height) - roll, -limit, limit)
+    return replace(plants, xy=np.column_stack((plants.xy[:, 0], camera_height * np.tan(angle))))
 
 
 def levelled(row: RowObservation, height: float, roll: float) -> RowObservation:

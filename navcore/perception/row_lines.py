@@ -68,6 +68,7 @@ class GroundRow:
         quality: 0 to 1.
         beside: (N, 2) feet that stand on neither line, in the driving frame, m.
         carried: metres by which it is carried on without a plant in sight; 0 while it is seen.
+        scanned: a 2D LiDAR told how far ahead its plants stand.
     """
 
     offset: float
@@ -80,6 +81,7 @@ class GroundRow:
     quality: float
     beside: Floats = field(default_factory=lambda: np.empty((0, 2)))
     carried: float = 0.0
+    scanned: bool = False
 
     def across(self, side: float, x: Floats) -> Floats:
         """y of the line on that side (+1 left, -1 right, 0 the centre line) at `x` ahead, driving frame, m."""
@@ -112,6 +114,7 @@ class RowLines:
         left_seen, right_seen: False where the line is carried over from earlier pictures.
         reason: why there is no row, a short sentence; empty if both lines are there.
         ground: the corridor, by fitters that work on the ground.
+        plant_sides: (M,) +1 for a scanned plant on the left line, -1 on the right, 0 on none; empty without a row.
     """
 
     left: Line2 | None
@@ -122,6 +125,7 @@ class RowLines:
     right_seen: bool
     reason: str = ""
     ground: GroundRow | None = None
+    plant_sides: NDArray[np.int64] = field(default_factory=lambda: np.empty(0, dtype=np.int64))
 
 
 class RowLineFitter(Protocol):

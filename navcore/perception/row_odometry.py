@@ -96,7 +96,8 @@ class RowOdometry:
 
     def _ahead(self, row: GroundRow) -> list[tuple[bool, float]]:
         """Side and distance along the row of the feet that are near, m."""
-        c, s = self._nearer * math.cos(row.heading), self._nearer * math.sin(row.heading)
+        nearer = 1.0 if row.scanned else self._nearer
+        c, s = nearer * math.cos(row.heading), nearer * math.sin(row.heading)
         return [(left, x * c + y * s) for left, x, y in row.feet() if x < self._params.furthest]
 
     def _beyond(self, feet: list[Foot]) -> float:

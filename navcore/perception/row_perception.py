@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from navcore.geometry.pinhole import PinholeCamera
 from navcore.geometry.se2 import SE2
-from navcore.messages import CameraName, CameraView, DetectedObject
-from navcore.perception.camera_view import camera_view, row_observation
+from navcore.messages import CameraName, CameraView, DetectedObject, RowSource
+from navcore.perception.camera_view import camera_view, row_observation, scanned_plants
 from navcore.perception.corner_points import CornerPoints, corner_points
 from navcore.perception.corridor_track import CorridorTrackerParams
 from navcore.perception.corridor_tracker import CorridorTracker
@@ -20,11 +22,14 @@ from navcore.perception.ground_row import GroundRowParams, ground_row
 from navcore.perception.image_lines import driving_camera, image_bisector, looks_back, published_reading
 from navcore.perception.lean_watch import LeanWatch, LeanWatchParams, Reading
 from navcore.perception.least_squares import LeastSquares
+from navcore.perception.plants.box_association import BoxAssociationParams, associate
+from navcore.perception.plants.scanned_plants import ScannedPlants, no_plants
 from navcore.perception.row_bands import filter_region
 from navcore.perception.row_end import RowEnd, RowEndParams, seen_to
 from navcore.perception.row_lines import GroundRow, RowCue, RowLineFitter, RowLines, RowPrior
 from navcore.perception.row_odometry import RowOdometry, RowOdometryParams
 from navcore.perception.row_ransac import Ransac, RansacParams
+from navcore.perception.scan_evidence import ScanEvidence
 from navcore.perception.temporal_ransac import SlopeCheckParams, TemporalRansac
 
 
@@ -59,6 +64,7 @@ class RowPerceptionParams:
     row_end: RowEndParams = RowEndParams()
     lean: LeanWatchParams = LeanWatchParams()
     odometry: RowOdometryParams = RowOdometryParams()
+    association: BoxAssociationParams = BoxAssociationParams()
 
 
 def row_line_fitter(camera: PinholeCamera, params: RowPerceptionParams) -> RowLineFitter:
@@ -69,6 +75,31 @@ def row_line_fitter(camera: PinholeCamera, params: RowPerceptionParams) -> RowLi
         return LeastSquares()
     ransac = Ransac(params.ransac, width_px=camera.width_px)
     return ransac if params.method is RowMethod.RANSAC else TemporalRansac(ransac, camera, params.slope_check)
+
+
+class Look(NamedTuple):
+    """What one moment gave to see.
+
+    Attributes:
+        fault: what is wrong with the picture, empty if nothing is.
+        objects: of the picture. corners: their corner points, those that count.
+        plants: scanned ones. found: (N,) which of them each object is, -1 for none.
+        scan: what they add to the picture, None if there are none.
+    """
+
+    fault: str
+    objects: tuple[DetectedObject, ...]
+    corners: CornerPoints
+    plants: ScannedPlants
+    found: NDArray[np.int64]
+    scan: ScanEvidence | None
+
+    @property
+    def source(self) -> RowSource:
+        """The sensors that took part."""
+        if self.scan is None:
+            return RowSource.CAMERA
+        return RowSource.LIDAR if self.fault else RowSource.FUSED
 
 
 class RowPerception:
@@ -88,30 +119,42 @@ class RowPerception:
         self._region = filter_region(params.filter, width_px=c.width_px, height_px=c.height_px)
 
     def process(
-        self, image: Image, stamp_ns: int, camera_name: CameraName, *, prior: RowPrior | None = None,
-        motion: SE2 | None = None, latency_ms: float = 0.0,
+        self, image: Image | None, stamp_ns: int, camera_name: CameraName, *, prior: RowPrior | None = None,
+        motion: SE2 | None = None, latency_ms: float = 0.0, plants: ScannedPlants | None = None,
     ) -> CameraView:  # fmt: skip
-        """What is seen in one picture (H, W, 3), BGR.
+        """What is seen in one picture (H, W, 3), BGR, or without one by scanned plants alone.
 
         `motion` is the pose of `base_link` at this picture in `base_link` at the last one (`T_last_now`, from
-        odometry); without it nothing of earlier pictures is used. `prior` is in the driving frame.
+        odometry); without it nothing of earlier pictures is used. `prior` and `plants` are in the driving frame.
         """
-        cue = RowCue(prior=prior, motion=self._driven(motion))
-        fault = self._fault(image)
-        objects = () if fault else self._detector.detect(image)
-        corners = self._corner_points(objects)
-        lines = self._fitter.fit(corners, cue)
-        ground = self._on_ground(lines, corners)
+        seen = self._look(image, plants or no_plants(), prior)
+        cue = RowCue(prior=prior, motion=self._driven(motion), scan=seen.scan)
+        lines = self._fitter.fit(seen.corners, cue)
+        ground = self._on_ground(lines, seen.corners)
         bisector = image_bisector(lines.left, lines.right) if lines.left and lines.right else None
         published = published_reading(bisector, self._camera, self._params.look_ahead) if bisector else None
-        seen = None if isinstance(ground, str) or ground.carried else ground
-        reading = self._read_lean(seen, cue)
-        driven = self._odometry.see(seen, cue.motion, stamp_ns)
-        end = self._row_end(seen, cue.motion)
+        told = None if isinstance(ground, str) or ground.carried else ground
+        reading = self._read_lean(told, cue)
+        driven = self._odometry.see(told, cue.motion, stamp_ns)
+        end = self._row_end(told, cue.motion)
+        shown = ground if seen.scan else seen.fault or ground
         row = row_observation(
-            stamp_ns, camera_name, lines, fault or ground, end, self._seen_to(ground), published, reading, driven
+            stamp_ns, camera_name, lines, shown, end, self._seen_to(ground), published, reading, driven
         )  # fmt: skip
-        return camera_view(self._camera, objects, corners, lines, ground, bisector, row, latency_ms, self._region)
+        row = replace(row, source=seen.source, missing=seen.fault if seen.scan else "")
+        view = camera_view(
+            self._camera, seen.objects, seen.corners, lines, ground, bisector, row, latency_ms, self._region
+        )  # fmt: skip
+        return replace(view, plants=scanned_plants(seen.plants, lines.plant_sides, seen.found))
+
+    def _look(self, image: Image | None, plants: ScannedPlants, prior: RowPrior | None) -> Look:
+        fault = self._fault(image) if image is not None else "the camera gives no picture"
+        objects = () if fault or image is None else self._detector.detect(image)
+        pitch = prior.pitch or 0.0 if prior else 0.0
+        found = associate(objects, plants, self._camera, pitch, self._params.association)
+        corners, used = self._corner_points(objects)
+        scan = ScanEvidence(plants=plants.evidence(), paired=found[used]) if len(plants) else None
+        return Look(fault=fault, objects=objects, corners=corners, plants=plants, found=found, scan=scan)
 
     def _read_lean(self, row: GroundRow | None, cue: RowCue) -> Reading | None:
         roll, pitch = (cue.prior.roll, cue.prior.pitch or 0.0) if cue.prior else (0.0, 0.0)
@@ -131,13 +174,15 @@ class RowPerception:
         """The motion of the driving frame."""
         return SE2(-motion.x, -motion.y, motion.yaw) if motion is not None and self._backwards else motion
 
-    def _corner_points(self, objects: tuple[DetectedObject, ...]) -> CornerPoints:
-        sure = [o for o in objects if o.confidence >= self._params.min_confidence]
-        corners, c = corner_points(sure, self._camera.width_px, self._camera.height_px), self._camera
+    def _corner_points(self, objects: tuple[DetectedObject, ...]) -> tuple[CornerPoints, NDArray[np.int64]]:
+        """Those that count, and which objects they are of."""
+        c, least = self._camera, self._params.min_confidence
+        sure = np.array([i for i, o in enumerate(objects) if o.confidence >= least], dtype=np.int64)
+        corners = corner_points([objects[i] for i in sure], c.width_px, c.height_px)
         mask = geometric_filter(
             corners.points, width_px=c.width_px, height_px=c.height_px, params=self._params.filter
         )  # fmt: skip
-        return corners.only(mask)
+        return corners.only(mask), sure[mask]
 
     def _on_ground(self, lines: RowLines, corners: CornerPoints) -> GroundRow | str:
         """The corridor on the ground, or why there is none."""

@@ -2,40 +2,95 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import replace
 
+from navcore.geometry.pinhole import PinholeCamera
 from navcore.geometry.se2 import SE2
-from navcore.messages import USUAL_WIDTH, CameraName, CameraRequest, CameraView, RowObservation
+from navcore.messages import (
+    USUAL_WIDTH,
+    CameraName,
+    CameraRequest,
+    CameraView,
+    LidarScan,
+    RowObservation,
+    RowSource,
+)
 from navcore.perception.detector import Image
-from navcore.perception.levelling import leaning_offset, levelled
+from navcore.perception.image_lines import driving_camera
+from navcore.perception.levelling import leaning_offset, leaning_plants, levelled
+from navcore.perception.plants.box_association import should_be_seen
+from navcore.perception.plants.scanned_plants import ScannedPlants
 from navcore.perception.row_lines import RowPrior
 from navcore.perception.row_perception import RowPerception
+from navcore.runtime.odometry_trail import OdometryTrail
+from navcore.runtime.scan_eye import ScanEye
 
 LEAST_PRIOR_STD = 0.15
 WRONG_ROW = 0.38
 
 
 class RowEye:
-    """One perception a camera; a change of camera starts anew."""
+    """One perception a camera; a change of camera starts anew. A 2D LiDAR, if there is one, serves all cameras."""
 
-    def __init__(self, perceptions: Mapping[CameraName, RowPerception], camera_height: float) -> None:
-        """`camera_height` above the ground, m."""
-        self._perceptions, self._height = perceptions, camera_height
+    def __init__(
+        self, perceptions: Mapping[CameraName, RowPerception], cameras: Mapping[CameraName, PinholeCamera],
+        scan_eye: ScanEye | None = None,
+    ) -> None:  # fmt: skip
+        """`cameras` tell where each is mounted in `base_link`."""
+        self._perceptions, self._scan_eye = perceptions, scan_eye
+        self._cameras = {name: driving_camera(camera) for name, camera in cameras.items()}
         self._last: CameraRequest | None = None
+        self._trail = OdometryTrail()
 
-    def look(self, image: Image, stamp_ns: int, request: CameraRequest, latency_ms: float = 0.0) -> CameraView:
-        """What is seen in one picture (H, W, 3) BGR of the camera that was asked for."""
-        perception = self._perceptions[request.camera]
+    def look(
+        self, image: Image | None, stamp_ns: int, request: CameraRequest, latency_ms: float = 0.0,
+        scans: tuple[LidarScan, ...] = (),
+    ) -> CameraView:  # fmt: skip
+        """What one picture (H, W, 3) BGR of the camera that was asked for and the scans since the last one show.
+
+        Without a picture the scans alone show the row.
+        """
+        perception, camera = self._perceptions[request.camera], self._cameras[request.camera]
         motion = self._motion(request)
         if motion is None:
             perception.forget()
         self._last = request
-        prior = row_prior(request, self._height)
-        view = perception.process(image, stamp_ns, request.camera, prior=prior, motion=motion, latency_ms=latency_ms)
+        prior, plants = row_prior(request, camera.z), self._plants(stamp_ns, request, scans)
+        view = perception.process(
+            image, stamp_ns, request.camera, prior=prior, motion=motion, latency_ms=latency_ms, plants=plants
+        )  # fmt: skip
         if _is_another_row(view.row, prior):
             perception.forget()
-        return replace(view, row=levelled(view.row, self._height, request.roll))
+        self._tell(view, plants, camera)
+        row = levelled(view.row, camera.z, request.roll)
+        return replace(view, row=replace(row, missing=row.missing or self._missing(request, plants)))
+
+    def _plants(self, stamp_ns: int, request: CameraRequest, scans: tuple[LidarScan, ...]) -> ScannedPlants | None:
+        """Scanned plants in the leaning driving frame, None without a LiDAR that sees."""
+        if self._scan_eye is None:
+            return None
+        self._trail.add(request.stamp_ns, _odom(request))
+        for scan in scans:
+            self._scan_eye.take(scan, self._trail)
+        found = self._scan_eye.plants(stamp_ns, self._trail)
+        if found is None:
+            return None
+        turned = SE2(0.0, 0.0, math.pi) if request.camera is CameraName.REAR else SE2()
+        height = self._cameras[request.camera].z
+        return leaning_plants(found.seen_from(turned), height, self._scan_eye.mount.z, request.roll)
+
+    def _tell(self, view: CameraView, plants: ScannedPlants | None, camera: PinholeCamera) -> None:
+        """What the picture makes of the plants, if there is one."""
+        if self._scan_eye is not None and plants is not None and view.row.source is RowSource.FUSED:
+            self._scan_eye.told(view, plants.number[should_be_seen(plants, camera)])
+
+    def _missing(self, request: CameraRequest, plants: ScannedPlants | None) -> str:
+        """What is wrong with the LiDAR where a row is expected."""
+        if self._scan_eye is None or plants is not None or request.offset is None:
+            return ""
+        return self._scan_eye.problem
 
     def _motion(self, request: CameraRequest) -> SE2 | None:
         """`T_last_now` of base_link, None where this picture does not follow the last one.

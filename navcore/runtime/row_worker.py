@@ -46,7 +46,7 @@ class RowWorker:
         detectors, mounts = cameras.detectors(), cameras.mounts
         perceptions = {n: RowPerception(c, detectors[n], config.perception) for n, c in mounts.items()}
         self._cameras = cameras
-        self._eye = RowEye(perceptions, mounts[CameraName.FRONT].z)
+        self._eye = RowEye(perceptions, mounts)
         self._publisher = Publisher(endpoints, "row_worker")
         self._bus = Subscriber(endpoints, (CAMERA_REQUEST.name,))
         self._request: CameraRequest | None = None

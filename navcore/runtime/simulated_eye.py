@@ -37,7 +37,7 @@ class ProjectedEye:
         params = perception or RowPerceptionParams()
         camera = cameras[CameraName.FRONT]
         perceptions = {n: RowPerception(c, self._detectors[n], params) for n, c in cameras.items()}
-        self._eye = RowEye(perceptions, camera.z)
+        self._eye = RowEye(perceptions, cameras)
         self._picture = rng.integers(0, 255, (camera.height_px, camera.width_px, 3), dtype=np.uint8)
 
     def look(self, truth: SimTruth, request: CameraRequest) -> CameraView:

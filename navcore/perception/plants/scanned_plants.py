@@ -46,6 +46,10 @@ class ScannedPlants:
             hits=self.hits[mask], sureness=self.sureness[mask],
         )  # fmt: skip
 
+    def evidence(self) -> Floats:
+        """(N, 4) as the row fit takes them: x, y, 1-sigma, and how sure they are."""
+        return np.column_stack((self.xy, self.std, self.sureness))
+
 
 def no_plants() -> ScannedPlants:
     """Of a robot without a LiDAR, or before its first scan."""

@@ -19,7 +19,7 @@ NOBODY_ASKS = CameraRequest(stamp_ns=0, camera=CameraName.FRONT, odom_x=0.0, odo
 def test_where_no_row_is_expected_no_row_is_remembered() -> None:
     """Before the warehouse the picture once showed a row that it had seen somewhere else."""
     told = Told(boxes_at(FRONT, corridor_feet(SE2())))
-    eye = RowEye({CameraName.FRONT: RowPerception(FRONT, told, RowPerceptionParams())}, camera_height=FRONT.z)
+    eye = RowEye({CameraName.FRONT: RowPerception(FRONT, told, RowPerceptionParams())}, {CameraName.FRONT: FRONT})
     assert eye.look(picture(FRONT), 0, NOBODY_ASKS).row.valid
     told.objects = ()
     assert not eye.look(picture(FRONT), 1, NOBODY_ASKS).row.valid
@@ -28,7 +28,7 @@ def test_where_no_row_is_expected_no_row_is_remembered() -> None:
 def test_where_a_row_is_expected_it_is_carried_from_picture_to_picture() -> None:
     asked = replace(NOBODY_ASKS, offset=0.0, heading=0.0, offset_std=0.2, width=3.0)
     told = Told(boxes_at(FRONT, corridor_feet(SE2())))
-    eye = RowEye({CameraName.FRONT: RowPerception(FRONT, told, RowPerceptionParams())}, camera_height=FRONT.z)
+    eye = RowEye({CameraName.FRONT: RowPerception(FRONT, told, RowPerceptionParams())}, {CameraName.FRONT: FRONT})
     assert eye.look(picture(FRONT), 0, asked).row.valid
     told.objects = ()
     assert eye.look(picture(FRONT), 1, replace(asked, odom_x=0.1)).row.valid

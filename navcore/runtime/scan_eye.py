@@ -1,0 +1,76 @@
+"""Follows the plants in a 2D LiDAR's scans, for the moment at which a picture was taken."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from navcore.geometry.lidar_mount import LidarMount
+from navcore.geometry.se2 import SE2
+from navcore.messages import CameraView, LidarScan
+from navcore.perception.plants.plant_tracker import PlantTracker, PlantTrackerParams
+from navcore.perception.plants.scanned_plants import ScannedPlants
+from navcore.perception.scan.scan_clusters import ScanClusterParams, ScanClusters
+from navcore.runtime.odometry_trail import OdometryTrail
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ScanEyeParams:
+    """Parameters of `ScanEye`.
+
+    Attributes:
+        mount: of the LiDAR; as paper B's, 0.25 m above the middle of the body.
+        clusters, tracker: of its stages.
+        late_s: a LiDAR whose newest scan is older than that is silent, s.
+    """
+
+    mount: LidarMount = LidarMount(x=0.30, y=0.0, z=0.55)
+    clusters: ScanClusterParams = field(default_factory=ScanClusterParams)
+    tracker: PlantTrackerParams = field(default_factory=PlantTrackerParams)
+    late_s: float = 0.35
+
+
+class ScanEye:
+    """One LiDAR's. `problem` is what is wrong with it, in a sentence; empty while all is well."""
+
+    def __init__(self, params: ScanEyeParams = ScanEyeParams()) -> None:
+        self.mount = params.mount
+        self._params = params
+        self._clusters = ScanClusters(params.clusters)
+        self._tracker = PlantTracker(params.mount, params.tracker)
+        self._last: tuple[int, SE2] | None = None
+        self.problem = "the LiDAR has sent nothing yet"
+
+    def forget(self) -> None:
+        """What comes next does not follow."""
+        self._tracker.forget()
+        self._last = None
+
+    def take(self, scan: LidarScan, trail: OdometryTrail) -> None:
+        """Take in a scan. One of a moment at which nobody knows where the robot was begins anew."""
+        now, began = trail.at(scan.stamp_ns), trail.at(scan.began_ns)
+        if now is None or began is None:
+            self.forget()
+            return
+        angles, distances = np.asarray(scan.angles), np.asarray(scan.distances)
+        self.problem = "" if np.any(distances > 0.0) else "the LiDAR sees nothing at all: is it covered?"
+        motion = self._last[1].inverse() @ now if self._last else SE2()
+        self._tracker.see(self._clusters.find(angles, distances), motion, began.inverse() @ now)
+        self._last = scan.stamp_ns, now
+
+    def plants(self, stamp_ns: int, trail: OdometryTrail) -> ScannedPlants | None:
+        """All that are followed, in `base_link` at that moment; None from a LiDAR that is silent or blind."""
+        at = trail.at(stamp_ns)
+        if self._last is None or at is None:
+            return None
+        silent_s = (stamp_ns - self._last[0]) * 1e-9
+        if silent_s > self._params.late_s:
+            self.problem = f"the LiDAR has been silent for {silent_s:.1f} s"
+        return None if self.problem else self._tracker.plants(self._last[1].inverse() @ at)
+
+    def told(self, view: CameraView, expected: NDArray[np.int64]) -> None:
+        """What a picture makes of the plants: which it shows, and which of those `expected`, by number, it does not."""
+        boxed = np.array([p.number for p in view.plants if p.object is not None], dtype=np.int64)
+        self._tracker.told_by_camera(boxed, np.setdiff1d(expected, boxed))
