@@ -71,6 +71,6 @@ class ScanEye:
         return None if self.problem else self._tracker.plants(self._last[1].inverse() @ at)
 
     def told(self, view: CameraView, expected: NDArray[np.int64]) -> None:
-        """What a picture makes of the plants: which it shows, and which of those `expected`, by number, it does not."""
+        """What a picture makes of the plants: which it shows, and which it does not of those `expected` (numbers)."""
         boxed = np.array([p.number for p in view.plants if p.object is not None], dtype=np.int64)
         self._tracker.told_by_camera(boxed, np.setdiff1d(expected, boxed))
