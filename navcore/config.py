@@ -11,12 +11,14 @@ from typing import Any, get_type_hints
 import msgspec
 
 from navcore.drivers.camera_capture import CameraParams
+from navcore.drivers.rplidar.lidar_params import LidarParams
 from navcore.errors import ConfigError
 from navcore.geometry.pinhole import robot_camera
 from navcore.maps.site_map import Datum
 from navcore.messages import CameraName
 from navcore.navigator import Navigator, NavigatorParams
 from navcore.perception.detector import DetectorParams
+from navcore.perception.plants.scan_eye import ScanEyeParams
 from navcore.perception.row_perception import RowPerceptionParams
 from navcore.vehicle import PROFILES, VehicleParams
 
@@ -28,12 +30,16 @@ class RobotConfig:
     Attributes:
         vehicle: name of a profile in `vehicle.PROFILES`.
         front_camera, rear_camera: of a real robot; a simulated one has paper A's.
+        lidar: a 2D LiDAR, if there is one; a simulated robot has one if its simulation says so. scan: how plants are
+            followed in its scans.
         detector: of trunks and posts.
     """
 
     vehicle: str = "paper_a"
     front_camera: CameraParams = field(default_factory=CameraParams)
     rear_camera: CameraParams = field(default_factory=lambda: CameraParams(mount=robot_camera(rear=True)))
+    lidar: LidarParams = field(default_factory=LidarParams)
+    scan: ScanEyeParams = field(default_factory=ScanEyeParams)
     detector: DetectorParams = field(default_factory=DetectorParams)
     navigator: NavigatorParams = field(default_factory=NavigatorParams)
     perception: RowPerceptionParams = field(default_factory=RowPerceptionParams)

@@ -116,6 +116,12 @@ CAMERA_VIEW = Topic(
     name="camera/view", type=m.CameraView, publisher="row_worker", rate_hz=10, max_age_s=0.5, logged=True, shown=True,
     attachment="jpeg",
 )  # fmt: skip
+LIDAR_SCAN = Topic(
+    name="lidar/scan", type=m.LidarScan, publisher="row_worker", rate_hz=10, max_age_s=0.35, logged=True, shown=False
+)
+SIM_SCAN = Topic(
+    name="sim/scan", type=m.LidarScan, publisher="world", rate_hz=10, max_age_s=0.35, logged=False, shown=False
+)
 SIM_TRUTH = Topic(
     name="sim/truth", type=m.SimTruth, publisher="world", rate_hz=50, max_age_s=0.2, logged=True, shown=False
 )
@@ -138,7 +144,7 @@ TOPICS: dict[str, Topic] = {
     t.name: t
     for t in (
         NAV_INPUTS, NAV_DECISION, NAV_STATUS, NAV_SWITCH, NAV_PLAN, CAMERA_REQUEST, GNSS_FIX, CHASSIS_STATE,
-        IMU_SAMPLE, ROW_OBSERVATION, CAMERA_VIEW, SIM_TRUTH, SIM_FARM, SIM_CONTACT, RECORDER_STATUS,
-        NAV_PRELUDE,
+        IMU_SAMPLE, ROW_OBSERVATION, CAMERA_VIEW, SIM_TRUTH, SIM_FARM, SIM_CONTACT, SIM_SCAN, LIDAR_SCAN,
+        RECORDER_STATUS, NAV_PRELUDE,
     )
 }  # fmt: skip

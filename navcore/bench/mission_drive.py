@@ -16,6 +16,7 @@ from navcore.maps.site_map import SiteMap
 from navcore.messages import (
     CameraRequest,
     CameraView,
+    LidarScan,
     MissionPlan,
     NavMode,
     Request,
@@ -81,11 +82,11 @@ class PixelEye:
         self._eye = RowEye(perceptions, cameras)
         self._frames = 0
 
-    def look(self, truth: SimTruth, request: CameraRequest) -> CameraView:
+    def look(self, truth: SimTruth, request: CameraRequest, scans: tuple[LidarScan, ...] = ()) -> CameraView:
         """See `lockstep.Eye`."""
         image = self._renderers[request.camera].render(truth, self._frames).image
         self._frames += 1
-        return self._eye.look(image, truth.stamp_ns, request)
+        return self._eye.look(image, truth.stamp_ns, request, scans=scans)
 
 
 def drive_case(case: MissionCase, config: RobotConfig, limits: DriveLimits = DriveLimits()) -> DriveOutcome:

@@ -119,12 +119,12 @@ def _simulated_robot(settings: Settings, site: Path, config: Path | None, simula
 
 def _real_robot(settings: Settings, site: Path, can: str, gnss: str | None, config: Path | None) -> Robot:
     from navcore.errors import ConfigError
-    from navcore.runtime.gnss_address import GnssAddress
+    from navcore.runtime.device_address import DeviceAddress
     from navcore.runtime.processes import CanSettings, Robot
 
     if gnss is None:
         raise ConfigError("A real robot needs a receiver: give --gnss.")
-    GnssAddress(gnss)
+    DeviceAddress(gnss)
     return Robot(
         bus=settings.bus_dir, site=site, vehicle=settings.vehicle, config=config,
         can=CanSettings(interface="socketcan", channel=can), gnss=gnss,

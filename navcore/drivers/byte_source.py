@@ -1,4 +1,4 @@
-"""Where a receiver's bytes come from: serial port, TCP, or a recorded file."""
+"""Where a device's bytes come from: serial port, TCP, or a recorded file."""
 
 from __future__ import annotations
 

@@ -36,3 +36,8 @@ class LidarMount:
         """Where rays end, (N, 3) in `base_link`, m."""
         flat = np.column_stack((distances * np.cos(angles), distances * np.sin(angles), np.zeros(len(angles))))
         return np.asarray(flat @ self.R_base_lidar().T + (self.x, self.y, self.z))
+
+
+def robot_lidar() -> LidarMount:
+    """Paper B's: 0.25 m above the middle of the body, in front of what it carries."""
+    return LidarMount(x=0.30, y=0.0, z=0.55)

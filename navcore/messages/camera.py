@@ -175,7 +175,10 @@ class CameraView:
     """A picture's description for the browser; the camera's own JPEG travels beside it in the same message.
 
     `centre` is the corridor's centre line on the ground, `bisector` the published one in the image. `left_band` and
-    `right_band` are where the lines lie with 95 %, `region` is where corner points count. `plants` are scanned ones.
+    `right_band` are where the lines lie with 95 %, `region` is where corner points count. `plants` are scanned ones,
+    `scan` is where the newest scan's rays end in the picture (u, v), `ends` where in the driving frame (x, y), m.
+    `bearings` are how far to the left of straight ahead the objects are seen from the camera, rad, which stands
+    `camera_x` m ahead of the driving frame's origin.
     """
 
     stamp_ns: int
@@ -194,6 +197,10 @@ class CameraView:
     right_band: ImageArea | None = None
     region: ImageArea | None = None
     plants: tuple[ScannedPlant, ...] = ()
+    scan: tuple[tuple[float, float], ...] = ()
+    ends: tuple[tuple[float, float], ...] = ()
+    bearings: tuple[float, ...] = ()
+    camera_x: float = 0.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

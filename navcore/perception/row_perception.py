@@ -22,7 +22,7 @@ from navcore.perception.ground_row import GroundRowParams, ground_row
 from navcore.perception.image_lines import driving_camera, image_bisector, looks_back, published_reading
 from navcore.perception.lean_watch import LeanWatch, LeanWatchParams, Reading
 from navcore.perception.least_squares import LeastSquares
-from navcore.perception.plants.box_association import BoxAssociationParams, associate
+from navcore.perception.plants.box_association import BoxAssociationParams, associate, corners_of, slopes
 from navcore.perception.plants.scanned_plants import ScannedPlants, no_plants
 from navcore.perception.row_bands import filter_region
 from navcore.perception.row_end import RowEnd, RowEndParams, seen_to
@@ -145,7 +145,9 @@ class RowPerception:
         view = camera_view(
             self._camera, seen.objects, seen.corners, lines, ground, bisector, row, latency_ms, self._region
         )  # fmt: skip
-        return replace(view, plants=scanned_plants(seen.plants, lines.plant_sides, seen.found))
+        bearings = np.arctan(slopes(corners_of(seen.objects), self._camera, 0.0)) if seen.scan else np.empty(0)
+        plants_seen = scanned_plants(seen.plants, lines.plant_sides, seen.found)
+        return replace(view, plants=plants_seen, bearings=tuple(bearings.tolist()), camera_x=self._camera.x)
 
     def _look(self, image: Image | None, plants: ScannedPlants, prior: RowPrior | None) -> Look:
         fault = self._fault(image) if image is not None else "the camera gives no picture"

@@ -19,6 +19,7 @@ from navcore.messages import (
     CameraView,
     Decision,
     ImuSample,
+    LidarScan,
     NavInputs,
     Request,
     SimTruth,
@@ -28,13 +29,15 @@ from navcore.sim.scout_ecu import ScoutEcu
 from navcore.sim.world import World, WorldOutput
 
 MS = 1_000_000
+# Waiting to be looked at; where no row matters nobody looks for minutes.
+MOST_SCANS = 8
 
 
 class Eye(Protocol):
     """Looks at the row as the row worker does."""
 
-    def look(self, truth: SimTruth, request: CameraRequest) -> CameraView:
-        """What is seen from where the robot truly is."""
+    def look(self, truth: SimTruth, request: CameraRequest, scans: tuple[LidarScan, ...] = ()) -> CameraView:
+        """What is seen from where the robot truly is, and in the scans that arrived since the last look."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -80,6 +83,7 @@ class Lockstep:
         self._pictures: deque[tuple[int, CameraView]] = deque()
         self._next_picture_ns = self.now_ns
         self._camera: CameraRequest | None = None
+        self._scans: tuple[LidarScan, ...] = ()
 
     def ask(self, request: Request) -> None:
         """Hand a request to the navigator with the next tick."""
@@ -96,6 +100,7 @@ class Lockstep:
     def tick(self) -> Tick:
         """One tick of the navigator, with the physics up to it."""
         outputs = self._physics()
+        self._scans = (*self._scans, *(scan for out in outputs for scan in out.scans))[-MOST_SCANS:]
         views = self._look(outputs[-1].truth)
         inputs = NavInputs(
             now_ns=self.now_ns,
@@ -131,7 +136,8 @@ class Lockstep:
         """Take a picture when one is due and wanted; the views whose time of arrival has come."""
         if self.eye is not None and self._camera is not None and self.now_ns >= self._next_picture_ns:
             self._next_picture_ns = self.now_ns + self.params.camera_ms * MS
-            view = self.eye.look(truth, self._camera)
+            view = self.eye.look(truth, self._camera, self._scans)
+            self._scans = ()
             self._pictures.append((self.now_ns + self.params.camera_latency_ms * MS, view))
         arrived = []
         while self._pictures and self._pictures[0][0] <= self.now_ns:

@@ -31,7 +31,7 @@ from navcore.messages import (
 )
 from navcore.promptness import be_prompt, no_pauses
 from navcore.runtime.clock import Every, Ticker
-from navcore.runtime.gnss_address import GnssAddress
+from navcore.runtime.device_address import DeviceAddress
 from navcore.runtime.guard_link import GuardLink
 from navcore.runtime.latest import Inbox
 from navcore.runtime.site_file import read_site
@@ -70,7 +70,7 @@ class Senses:
         self._bus = Subscriber(endpoints, (IMU_SAMPLE.name, ROW_OBSERVATION.name))
         self._requests = Replier(endpoints.navigator_requests)
         self._fixes: Inbox[GnssFix] = Inbox(FIXES)
-        self._gnss = GnssReader(GnssAddress(gnss_address).open, NmeaStream(), self._fixes.put, time.monotonic_ns)
+        self._gnss = GnssReader(DeviceAddress(gnss_address).open, NmeaStream(), self._fixes.put, time.monotonic_ns)
         self._gnss.start()
         self._asked: Request | None = None
 

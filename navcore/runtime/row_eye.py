@@ -6,6 +6,8 @@ import math
 from collections.abc import Mapping
 from dataclasses import replace
 
+import numpy as np
+
 from navcore.geometry.pinhole import PinholeCamera
 from navcore.geometry.se2 import SE2
 from navcore.messages import (
@@ -21,11 +23,11 @@ from navcore.perception.detector import Image
 from navcore.perception.image_lines import driving_camera
 from navcore.perception.levelling import leaning_offset, leaning_plants, levelled
 from navcore.perception.plants.box_association import should_be_seen
+from navcore.perception.plants.odometry_trail import OdometryTrail
+from navcore.perception.plants.scan_eye import ScanEye
 from navcore.perception.plants.scanned_plants import ScannedPlants
 from navcore.perception.row_lines import RowPrior
 from navcore.perception.row_perception import RowPerception
-from navcore.runtime.odometry_trail import OdometryTrail
-from navcore.runtime.scan_eye import ScanEye
 
 LEAST_PRIOR_STD = 0.15
 WRONG_ROW = 0.38
@@ -65,7 +67,8 @@ class RowEye:
             perception.forget()
         self._tell(view, plants, camera)
         row = levelled(view.row, camera.z, request.roll)
-        return replace(view, row=replace(row, missing=row.missing or self._missing(request, plants)))
+        view = replace(view, row=replace(row, missing=row.missing or self._missing(request, plants)))
+        return view if plants is None else self._with_scan(view, request.camera)
 
     def _plants(self, stamp_ns: int, request: CameraRequest, scans: tuple[LidarScan, ...]) -> ScannedPlants | None:
         """Scanned plants in the leaning driving frame, None without a LiDAR that sees."""
@@ -80,6 +83,19 @@ class RowEye:
         turned = SE2(0.0, 0.0, math.pi) if request.camera is CameraName.REAR else SE2()
         height = self._cameras[request.camera].z
         return leaning_plants(found.seen_from(turned), height, self._scan_eye.mount.z, request.roll)
+
+    def _with_scan(self, view: CameraView, camera: CameraName) -> CameraView:
+        """With the ends of the newest scan's rays, for drawing: in the picture and from above."""
+        if self._scan_eye is None:
+            return view
+        mount, turned = self._cameras[camera], -1.0 if camera is CameraName.REAR else 1.0
+        ends = self._scan_eye.ends(view.stamp_ns, self._trail) * (turned, turned, 1.0)
+        pixels = mount.project(ends)
+        inside = np.all((pixels >= 0.0) & (pixels < (mount.width_px, mount.height_px)), axis=1)
+        return replace(
+            view, scan=tuple((u, v) for u, v in np.round(pixels[inside], 1).tolist()),
+            ends=tuple((x, y) for x, y in np.round(ends[:, :2], 2).tolist()),
+        )  # fmt: skip
 
     def _tell(self, view: CameraView, plants: ScannedPlants | None, camera: PinholeCamera) -> None:
         """What the picture makes of the plants, if there is one."""

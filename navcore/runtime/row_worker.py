@@ -16,18 +16,20 @@ import cv2
 import msgspec
 
 from navcore.config import RobotConfig, load_config
-from navcore.messages import CameraName, CameraRequest, CameraView
+from navcore.messages import CameraName, CameraRequest, CameraView, LidarScan
 from navcore.perception.detector import Image
+from navcore.perception.plants.scan_eye import ScanEye
 from navcore.perception.row_perception import RowPerception
 from navcore.promptness import be_prompt
 from navcore.runtime.clock import Ticker
 from navcore.runtime.pictures import Cameras
 from navcore.runtime.real_cameras import RealCameras
 from navcore.runtime.row_eye import RowEye
+from navcore.runtime.scans import RealScans, Scans, SimulatedScans
 from navcore.runtime.simulated_cameras import SimulatedCameras
 from navcore.runtime.simulation import SimulationParams
 from navcore.runtime.site_file import read_site
-from navcore.topics import CAMERA_REQUEST, CAMERA_VIEW, ROW_OBSERVATION
+from navcore.topics import CAMERA_REQUEST, CAMERA_VIEW, LIDAR_SCAN, ROW_OBSERVATION
 from navcore.transport.codec import decode
 from navcore.transport.endpoints import Endpoints
 from navcore.transport.pubsub import Publisher, Subscriber
@@ -35,6 +37,7 @@ from navcore.transport.pubsub import Publisher, Subscriber
 FRAME_NS = 100_000_000
 IDLE_FRAMES = 4  # of which one is taken while no row matters: for the operator's eyes only
 REQUEST_AGE_NS = 200_000_000
+BLIND_NS = 300_000_000  # without a picture for so long the scans go on alone
 JPEG_QUALITY = 80
 PRIORITY = 5  # before pages and imports, for the robot steers by these pictures; after whoever ticks
 
@@ -42,11 +45,15 @@ PRIORITY = 5  # before pages and imports, for the robot steers by these pictures
 class RowWorker:
     """Looks where the navigator wants, ten times in a second; now and then anyway."""
 
-    def __init__(self, endpoints: Endpoints, cameras: Cameras, config: RobotConfig) -> None:
+    def __init__(
+        self, endpoints: Endpoints, cameras: Cameras, config: RobotConfig, scans: Scans | None = None
+    ) -> None:
         detectors, mounts = cameras.detectors(), cameras.mounts
         perceptions = {n: RowPerception(c, detectors[n], config.perception) for n, c in mounts.items()}
-        self._cameras = cameras
-        self._eye = RowEye(perceptions, mounts)
+        self._cameras, self._scans = cameras, scans
+        self._eye = RowEye(perceptions, mounts, ScanEye(scans.mount, config.scan) if scans else None)
+        self._untaken: tuple[LidarScan, ...] = ()
+        self._pictured_ns = time.monotonic_ns()
         self._publisher = Publisher(endpoints, "row_worker")
         self._bus = Subscriber(endpoints, (CAMERA_REQUEST.name,))
         self._request: CameraRequest | None = None
@@ -68,18 +75,43 @@ class RowWorker:
     def close(self) -> None:
         """Close the eyes."""
         self._cameras.close()
+        if self._scans is not None:
+            self._scans.close()
         self._publisher.close()
         self._bus.close()
 
     def _see(self, request: CameraRequest, *, for_navigator: bool) -> None:
+        self._untaken += self._take_scans()
         picture = self._cameras.take(request.camera)
         if picture is None:
+            if for_navigator:
+                self._feel(request)
             return
-        view = self._eye.look(picture.image, picture.stamp_ns, request)
+        self._pictured_ns = picture.stamp_ns
+        view = self._eye.look(picture.image, picture.stamp_ns, request, scans=self._scans_once())
         if for_navigator:
             self._publisher.publish(ROW_OBSERVATION.name, view.row)
         latency_ms = (time.monotonic_ns() - picture.stamp_ns) * 1e-6
         self._show(replace(view, latency_ms=latency_ms), picture.image)
+
+    def _feel(self, request: CameraRequest) -> None:
+        """By scans alone, where the camera gives no pictures any more."""
+        now_ns = time.monotonic_ns()
+        if self._scans is not None and now_ns - self._pictured_ns > BLIND_NS:
+            view = self._eye.look(None, now_ns, request, scans=self._scans_once())
+            self._publisher.publish(ROW_OBSERVATION.name, view.row)
+            self._publisher.publish(CAMERA_VIEW.name, view)
+
+    def _take_scans(self) -> tuple[LidarScan, ...]:
+        """New scans, told on to whoever draws or records them."""
+        scans = self._scans.take() if self._scans is not None else ()
+        for scan in scans:
+            self._publisher.publish(LIDAR_SCAN.name, scan)
+        return scans
+
+    def _scans_once(self) -> tuple[LidarScan, ...]:
+        scans, self._untaken = self._untaken, ()
+        return scans
 
     def _show(self, view: CameraView, image: Image) -> None:
         _, jpeg = cv2.imencode(".jpg", image, (cv2.IMWRITE_JPEG_QUALITY, JPEG_QUALITY))
@@ -100,7 +132,9 @@ def main() -> None:
     cv2.setNumThreads(1)
     config = load_config(given.config) if given.config else RobotConfig()
     endpoints = Endpoints(given.bus)
-    worker = RowWorker(endpoints, _cameras(endpoints, given.site, given.simulation, config), config)
+    simulation = msgspec.json.decode(given.simulation, type=SimulationParams) if given.simulation else None
+    cameras = _cameras(endpoints, given.site, simulation, config)
+    worker = RowWorker(endpoints, cameras, config, _scans(endpoints, simulation, config))
     be_prompt(PRIORITY)
     ticker = Ticker(FRAME_NS)
     while not ended:
@@ -109,12 +143,18 @@ def main() -> None:
     worker.close()
 
 
-def _cameras(endpoints: Endpoints, site: Path, simulation: str | None, config: RobotConfig) -> Cameras:
-    if simulation is None:
+def _cameras(endpoints: Endpoints, site: Path, params: SimulationParams | None, config: RobotConfig) -> Cameras:
+    if params is None:
         return RealCameras(config)
-    params = msgspec.json.decode(simulation, type=SimulationParams)
     orchard = params.world(read_site(site), config.vehicle_params(), 0).orchard
     return SimulatedCameras(endpoints, orchard, params, config.detector)
+
+
+def _scans(endpoints: Endpoints, params: SimulationParams | None, config: RobotConfig) -> Scans | None:
+    """The LiDAR, None where there is none."""
+    if params is not None:
+        return SimulatedScans(endpoints, params.lidar_mount()) if params.lidar else None
+    return RealScans(config.lidar) if config.lidar.address else None
 
 
 if __name__ == "__main__":

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from navcore.geometry.pinhole import PinholeCamera, robot_camera
-from navcore.messages import CameraName, CameraRequest, CameraView, SimTruth
+from navcore.messages import CameraName, CameraRequest, CameraView, LidarScan, SimTruth
 from navcore.perception.row_perception import RowPerception, RowPerceptionParams
 from navcore.runtime.row_eye import RowEye
 from navcore.sim.orchard import Orchard
@@ -40,7 +40,7 @@ class ProjectedEye:
         self._eye = RowEye(perceptions, cameras)
         self._picture = rng.integers(0, 255, (camera.height_px, camera.width_px, 3), dtype=np.uint8)
 
-    def look(self, truth: SimTruth, request: CameraRequest) -> CameraView:
+    def look(self, truth: SimTruth, request: CameraRequest, scans: tuple[LidarScan, ...] = ()) -> CameraView:
         """See `lockstep.Eye`."""
         self._detectors[request.camera].look_from(truth)
-        return self._eye.look(self._picture, truth.stamp_ns, request)
+        return self._eye.look(self._picture, truth.stamp_ns, request, scans=scans)

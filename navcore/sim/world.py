@@ -10,15 +10,17 @@ import numpy as np
 from navcore.errors import ContractError, InputError, NotFiniteError
 from navcore.geometry.pinhole import rotation_from_rpy
 from navcore.maps.site_map import SiteMap
-from navcore.messages import ImuSample, SimContact, SimFarm, SimTruth, TrueRow
+from navcore.messages import ImuSample, LidarScan, SimContact, SimFarm, SimTruth, TrueRow
 from navcore.sim.canopy import Canopy, CanopyParams
 from navcore.sim.contacts import ContactDetector
 from navcore.sim.gnss_receiver import AntennaState, GnssReceiver, GnssReceiverParams
 from navcore.sim.imu import Imu, ImuParams
+from navcore.sim.lidar2d import Lidar2d, Lidar2dParams
 from navcore.sim.map_error import MapErrorParams, perturb
 from navcore.sim.orchard import Orchard, OrchardParams, build_orchard
 from navcore.sim.terrain import SURFACE_TRAITS, Surface, Terrain, TerrainParams
 from navcore.sim.vehicle_dynamics import VehicleDynamics, VehicleDynamicsParams, WheelState
+from navcore.sim.world_faults import WorldFaults
 from navcore.vehicle import VehicleParams
 
 STEP_NS = 5_000_000
@@ -35,7 +37,7 @@ class WorldParams:
         start: (x, y, yaw) of the robot in the true world; None parks it at the warehouse, not quite as drawn.
         parking_std_m, parking_std_deg: 1-sigma of that.
         payload: on the robot, kg.
-        orchard, map_error, terrain, dynamics, imu, canopy, gnss: levels of each part.
+        orchard, map_error, terrain, dynamics, imu, canopy, gnss: levels of each part. lidar: None for none.
     """
 
     seed: int = 1
@@ -50,30 +52,7 @@ class WorldParams:
     imu: ImuParams = field(default_factory=ImuParams)
     canopy: CanopyParams = field(default_factory=CanopyParams)
     gnss: GnssReceiverParams = field(default_factory=GnssReceiverParams)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class WorldFaults:
-    """Faults that a test can switch on at any instant, by replacing `World.faults`.
-
-    Attributes:
-        gnss_silent: the receiver sends nothing. gnss_frozen: fresh times, old position.
-        corrections_lost: no RTK corrections arrive. gnss_off: it lies by so much east and north, m.
-        imu_silent, imu_frozen: likewise.
-        wheels_frozen: the chassis reports its last wheel state with fresh stamps.
-        stuck: the wheels turn and the robot stays.
-        drive_gain: the chassis drives so many times what it was told.
-    """
-
-    gnss_silent: bool = False
-    gnss_frozen: bool = False
-    corrections_lost: bool = False
-    gnss_off: tuple[float, float] = (0.0, 0.0)
-    imu_silent: bool = False
-    imu_frozen: bool = False
-    wheels_frozen: bool = False
-    stuck: bool = False
-    drive_gain: float = 1.0
+    lidar: Lidar2dParams | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -86,6 +65,7 @@ class WorldOutput:
         imu: samples that have arrived since the last call, oldest first.
         nmea: bytes that have arrived since the last call.
         contacts: things touched since the last call.
+        scans: of the LiDAR, that have arrived since the last call, oldest first.
     """
 
     truth: SimTruth
@@ -93,6 +73,7 @@ class WorldOutput:
     imu: tuple[ImuSample, ...]
     nmea: bytes
     contacts: tuple[SimContact, ...]
+    scans: tuple[LidarScan, ...] = ()
 
 
 class World:
@@ -106,8 +87,8 @@ class World:
 
     def __init__(self, site: SiteMap, vehicle: VehicleParams, params: WorldParams, start_ns: int = 0) -> None:
         # One generator per part: switching one part off leaves all others as they were.
-        streams = np.random.SeedSequence(params.seed).spawn(6)
-        map_rng, ground_rng, drive_rng, imu_rng, gnss_rng, park_rng = map(np.random.default_rng, streams)
+        streams = np.random.SeedSequence(params.seed).spawn(7)
+        map_rng, ground_rng, drive_rng, imu_rng, gnss_rng, park_rng, lidar_rng = map(np.random.default_rng, streams)
         self._vehicle, self._start_ns, self._now_ns, self._steps = vehicle, start_ns, start_ns, 0
         self.site = perturb(site, params.map_error, map_rng)
         self.orchard: Orchard = build_orchard(self.site, replace(params.orchard, seed=params.seed))
@@ -122,6 +103,7 @@ class World:
         self._ground = self._feel_ground()
         self._imu = Imu(params.imu, *self._ground[:2], imu_rng)
         self._imu_latency_ns = round(params.imu.latency_s * 1e9)
+        self._lidar = Lidar2d(self.orchard, params.lidar, lidar_rng, start_ns) if params.lidar else None
         self._acceleration = 0.0
         self._imu_sent: list[ImuSample] = []
         self._contacts: list[SimContact] = []
@@ -160,6 +142,7 @@ class World:
             self._sample_imu()
         if self._steps % _CONTACT_STEPS == 0:
             self._contacts += self._detector.update(self._now_ns, drive.x, drive.y, drive.yaw)
+        self._scan()
         if (self._now_ns - self._start_ns) % self._gnss.period_ns < STEP_NS:
             self._receive()
 
@@ -180,6 +163,16 @@ class World:
             sample = replace(self._imu_sent[-1], stamp_ns=self._now_ns)
         if not self.faults.imu_silent:
             self._imu_sent.append(sample)
+
+    def _scan(self) -> None:
+        if self._lidar is not None:
+            self._lidar.faults = self.faults.lidar
+            self._lidar.step(self._now_ns, self._drive.x, self._drive.y, self._lean())
+
+    def _lean(self) -> tuple[float, float, float]:
+        """Roll, pitch and yaw of the body against the ground's mean plane, rad."""
+        land_roll, land_pitch = self._terrain.land_tilt(self._drive.yaw)
+        return self._imu.roll - land_roll, self._imu.pitch - land_pitch, self._drive.yaw
 
     def _receive(self) -> None:
         if self.faults.gnss_silent:
@@ -209,11 +202,9 @@ class World:
         )
 
     def _output(self, now_ns: int) -> WorldOutput:
-        d = self._drive
-        land_roll, land_pitch = self._terrain.land_tilt(d.yaw)
+        d, (roll, pitch, yaw) = self._drive, self._lean()
         truth = SimTruth(
-            stamp_ns=self._now_ns, x=d.x, y=d.y, yaw=d.yaw, roll=self._imu.roll - land_roll,
-            pitch=self._imu.pitch - land_pitch, v=d.v, omega=d.omega,
+            stamp_ns=self._now_ns, x=d.x, y=d.y, yaw=yaw, roll=roll, pitch=pitch, v=d.v, omega=d.omega
         )  # fmt: skip
         arrived = [s for s in self._imu_sent if s.stamp_ns + self._imu_latency_ns <= now_ns]
         self._imu_sent = self._imu_sent[len(arrived) :]
@@ -224,8 +215,9 @@ class World:
         else:
             self._wheels = d.wheels(self._now_ns)
         return WorldOutput(
-            truth=truth, wheels=self._wheels, imu=tuple(arrived), nmea=self._gnss.due(now_ns), contacts=contacts
-        )
+            truth=truth, wheels=self._wheels, imu=tuple(arrived), nmea=self._gnss.due(now_ns), contacts=contacts,
+            scans=self._lidar.due(now_ns) if self._lidar else (),
+        )  # fmt: skip
 
 
 def _parked(site: SiteMap, params: WorldParams, rng: np.random.Generator) -> tuple[float, float, float]:

@@ -677,12 +677,33 @@ export interface components {
          * @description A picture's description for the browser; the camera's own JPEG travels beside it in the same message.
          *
          *     `centre` is the corridor's centre line on the ground, `bisector` the published one in the image. `left_band` and
-         *     `right_band` are where the lines lie with 95 %, `region` is where corner points count.
+         *     `right_band` are where the lines lie with 95 %, `region` is where corner points count. `plants` are scanned ones,
+         *     `scan` where the newest scan's rays end in the picture (u, v), and `ends` where they do in the driving frame (x, y), m.
+         *     `bearings` are how far to the left of straight ahead the objects are seen from the camera, rad, which stands
+         *     `camera_x` m ahead of the driving frame's origin.
          */
         CameraView: {
+            /**
+             * Bearings
+             * @default []
+             */
+            bearings: number[];
             bisector?: components["schemas"]["ImageLine"] | null;
             camera: components["schemas"]["CameraName"];
+            /**
+             * Camera X
+             * @default 0
+             */
+            camera_x: number;
             centre: components["schemas"]["ImageLine"] | null;
+            /**
+             * Ends
+             * @default []
+             */
+            ends: [
+                number,
+                number
+            ][];
             /** Height Px */
             height_px: number;
             /** Latency Ms */
@@ -691,12 +712,25 @@ export interface components {
             left_band?: components["schemas"]["ImageArea"] | null;
             /** Objects */
             objects: components["schemas"]["DetectedObject"][];
+            /**
+             * Plants
+             * @default []
+             */
+            plants: components["schemas"]["ScannedPlant"][];
             /** Points */
             points: components["schemas"]["ImagePoint"][];
             region?: components["schemas"]["ImageArea"] | null;
             right: components["schemas"]["ImageLine"] | null;
             right_band?: components["schemas"]["ImageArea"] | null;
             row: components["schemas"]["RowObservation"];
+            /**
+             * Scan
+             * @default []
+             */
+            scan: [
+                number,
+                number
+            ][];
             /** Stamp Ns */
             stamp_ns: number;
             /** Width Px */
@@ -1486,6 +1520,8 @@ export interface components {
          *         lean: by so much more than told the camera leans to the side (roll of the driving frame, left side up), rad;
          *             once every few metres, else None. lean_std: 1-sigma.
          *         mount: how the camera is mounted, told together with `lean`.
+         *         source: the sensors that it was seen with. missing: what is wrong with a sensor that should have helped, in a
+         *             sentence; empty when all is well.
          *         image_offset, image_heading: paper A's reading of the image's bisector: lateral deviation of the centre line
          *             at the look-ahead depth, m, and its angle to the image's vertical, rad; both positive to the left.
          */
@@ -1524,6 +1560,11 @@ export interface components {
              * @default false
              */
             left_seen: boolean;
+            /**
+             * Missing
+             * @default
+             */
+            missing: string;
             mount?: components["schemas"]["CameraMount"] | null;
             /**
              * Objects
@@ -1548,6 +1589,8 @@ export interface components {
             right_seen: boolean;
             /** Seen To */
             seen_to?: number | null;
+            /** @default camera */
+            source: components["schemas"]["RowSource"];
             /** Stamp Ns */
             stamp_ns: number;
             /** Valid */
@@ -1555,6 +1598,12 @@ export interface components {
             /** Width */
             width?: number | null;
         };
+        /**
+         * RowSource
+         * @description Which sensors a row was seen with.
+         * @enum {string}
+         */
+        RowSource: "camera" | "lidar" | "fused";
         /**
          * RowVisit
          * @description Drive one row.
@@ -1759,6 +1808,33 @@ export interface components {
             y: number[];
             /** Yaw */
             yaw: number[];
+        };
+        /**
+         * ScannedPlant
+         * @description A trunk or post that the 2D LiDAR follows, at the moment of the picture.
+         *
+         *     Attributes:
+         *         number: of the plant, the same as long as it is followed.
+         *         x, y: centre in the camera's driving frame, m. diameter: m.
+         *         sureness: 0 to 1, that it is a trunk or a post.
+         *         side: 1 on the row's left line, -1 on its right one, 0 on none.
+         *         object: which of the picture's objects it is, None if the camera does not see it.
+         */
+        ScannedPlant: {
+            /** Diameter */
+            diameter: number;
+            /** Number */
+            number: number;
+            /** Object */
+            object?: number | null;
+            /** Side */
+            side: number;
+            /** Sureness */
+            sureness: number;
+            /** X */
+            x: number;
+            /** Y */
+            y: number;
         };
         /**
          * SegmentKind

@@ -23,7 +23,7 @@ const VIEW = {
 
 const NO_ROW = { ...VIEW, left: null, right: null, centre: null, left_band: null, row: { ...VIEW.row, valid: false, reason: "1 trunk within 5 m", end_distance: null } } as CameraView;
 
-const only = (name: LayerName) => ({ boxes: false, region: false, points: false, sides: false, doubt: false, centre: false, end: false, words: false, [name]: true });
+const only = (name: LayerName) => ({ boxes: false, region: false, points: false, sides: false, doubt: false, centre: false, end: false, scan: false, words: false, [name]: true });
 
 describe("layers over the picture", () => {
   test("a box stands where the object is, in the picture's pixels", () =>

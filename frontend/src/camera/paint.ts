@@ -16,6 +16,8 @@ function paintOne(ctx: CanvasRenderingContext2D, shape: Shape, scale: number, ra
       return paintBox(ctx, shape, scale, ratio);
     case "dot":
       return paintDot(ctx, shape, scale, ratio);
+    case "speck":
+      return paintSpeck(ctx, shape, scale, ratio);
     case "area":
       return paintArea(ctx, shape, scale, ratio);
     case "line":
@@ -49,6 +51,11 @@ function paintDot(ctx: CanvasRenderingContext2D, dot: Extract<Shape, { kind: "do
   ctx.fillStyle = dot.color;
   if (dot.filled) ctx.fill();
   ctx.stroke();
+}
+
+function paintSpeck(ctx: CanvasRenderingContext2D, speck: Extract<Shape, { kind: "speck" }>, scale: number, ratio: number): void {
+  ctx.fillStyle = speck.color;
+  ctx.fillRect(speck.u * scale - 1.2 * ratio, speck.v * scale - 1.2 * ratio, 2.4 * ratio, 2.4 * ratio);
 }
 
 function paintArea(ctx: CanvasRenderingContext2D, area: Extract<Shape, { kind: "area" }>, scale: number, ratio: number): void {

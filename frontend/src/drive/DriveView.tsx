@@ -6,6 +6,7 @@ import { useState } from "react";
 import { missionsQuery, previewQuery } from "../api/queries";
 import type { MissionPlan, Robot, SiteDocument } from "../api/types";
 import { useTopic } from "../live/hooks";
+import { ScanView } from "../scan/ScanView";
 import { isUnderWay } from "../ui/words";
 import { Banner } from "./Banner";
 import { DriveMap } from "./DriveMap";
@@ -16,11 +17,12 @@ import { SceneView } from "./SceneView";
 import css from "./drive.module.css";
 import { useRecordedStart } from "./useRecordedStart";
 
-type ViewName = "map" | "scene" | "camera";
+type ViewName = "map" | "scene" | "scan" | "camera";
 
 const WIDE: { value: ViewName; label: string }[] = [
   { value: "map", label: "Map" },
   { value: "scene", label: "3D" },
+  { value: "scan", label: "Scan" },
 ];
 const NARROW = [...WIDE, { value: "camera" as const, label: "Camera" }];
 
@@ -41,6 +43,7 @@ export function DriveView({ robot, document }: { robot: Robot; document: SiteDoc
         <SegmentedControl className={css.views} value={view} onChange={(value) => setView(value as ViewName)} data={narrow ? NARROW : WIDE} />
         {view === "map" && <DriveMap document={document} robot={robot} plan={plan} />}
         {view === "scene" && <SceneView available={robot.scene} />}
+        {view === "scan" && <ScanView />}
         {view === "camera" && <LiveCamera />}
       </section>
       <aside className={css.side}>

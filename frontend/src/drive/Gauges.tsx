@@ -25,10 +25,22 @@ export function Gauges() {
       <Gauge name="Battery" value={volts(s?.battery_v)} tone={batteryTone(s?.battery_v)} />
       <Gauge name="Guard" value={s?.guard ?? "–"} note={s?.guard_reason} tone={s?.guard === "latched" ? "bad" : undefined} />
       <Gauge name="Camera" value={s?.camera ? `${centimetres(s.camera.height)} high` : "–"} note={s ? cameraNote(s) : ""} />
+      <RowSensors />
       <Gauge name="Mission" value={percent(s?.run_id ? s.progress : null)} note={s?.run_id ? `${metres(s.remaining)} to go` : ""} />
       <Gauge name="Time left" value={duration(s ? timeLeft(s) : null)} />
     </div>
   );
+}
+
+const SENSORS = { camera: "Camera", lidar: "LiDAR", fused: "Camera + LiDAR" } as const;
+
+/** What sees the row, and what is wrong with a sensor that should help. */
+function RowSensors() {
+  const view = useTopic("camera/view");
+  const fresh = useFresh("camera/view");
+  const row = fresh ? view?.row : null;
+  const note = row ? row.missing || (row.valid ? "see the row" : row.reason) : "in rows only";
+  return <Gauge name="Row by" value={row ? SENSORS[row.source ?? "camera"] : "–"} note={note} tone={row?.missing ? "warn" : undefined} />;
 }
 
 function Gauge({ name, value, note, tone }: { name: string; value: ReactNode; note?: string; tone?: Tone }) {

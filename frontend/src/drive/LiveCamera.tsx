@@ -29,7 +29,7 @@ export function LiveCamera() {
       <div className={css.frame}>
         <CameraCanvas feed={feed} layers={layers} />
         {!fresh && <div className={css.note}>{view ? "The picture is older than one second" : "No picture: the camera is switched on in rows"}</div>}
-        {fresh && view && (
+        {fresh && view && !view.row.missing.startsWith("the camera") && (
           <span className={css.corner}>
             {view.camera === "rear" ? "Rear" : "Front"} camera · {Math.round(view.latency_ms)} ms
           </span>

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from navcore.drivers.rplidar.rays import Floats, Ints, Rays
+from navcore.messages import LidarScan
 
 # Rays of a device that never comes round are not kept for ever.
 MOST_RAYS = 32_768
@@ -25,6 +26,14 @@ class Revolution:
 
     rays: Rays
     stamps_ns: NDArray[np.int64]
+
+    def scan(self) -> LidarScan:
+        """As a message; ranges to a tenth of a millimetre, bearings to a hundred-thousandth of a radian."""
+        return LidarScan(
+            stamp_ns=int(self.stamps_ns[-1]), began_ns=int(self.stamps_ns[0]),
+            angles=tuple(np.round(self.rays.angle, 5).tolist()),
+            distances=tuple(np.round(self.rays.distance, 4).tolist()),
+        )  # fmt: skip
 
 
 class Revolutions:

@@ -73,11 +73,11 @@ def distances(
     p: BoxAssociationParams,
 ) -> Floats:  # fmt: skip
     """(N, M) half the squared distances, in 1-sigmas, between objects and plants; more than `alone` out of reach."""
-    boxes = np.array([(o.x1, o.y1, o.x2, o.y2) for o in objects])
+    boxes = corners_of(objects)
     x, y = (plants.xy - (camera.x, camera.y)).T
     ahead = np.maximum(x, 0.3)
     scale = camera.width_px / 640 / camera.fx
-    across = _bearing(boxes, camera, pitch)[:, None] - (y / ahead)[None]
+    across = slopes(boxes, camera, pitch)[:, None] - (y / ahead)[None]
     across_std = np.sqrt(
         (p.box_px * scale) ** 2 + math.radians(p.mount_deg) ** 2 + (plants.std**2 + p.lean**2) / ahead**2
     )  # fmt: skip
@@ -100,8 +100,15 @@ def _by_foot(boxes: Floats, ahead: Floats, camera: PinholeCamera, pitch: float, 
     return np.where(hidden[:, None], 0.0, off**2)
 
 
-def _bearing(boxes: Floats, camera: PinholeCamera, pitch: float) -> Floats:
+def corners_of(objects: tuple[DetectedObject, ...]) -> Floats:
+    """(N, 4) x1, y1, x2, y2 of boxes, pixels."""
+    return np.array([(o.x1, o.y1, o.x2, o.y2) for o in objects], dtype=np.float64).reshape(-1, 4)
+
+
+def slopes(boxes: Floats, camera: PinholeCamera, pitch: float) -> Floats:
     """(N,) how far aside per metre ahead, + left, boxes' middles are of a camera that looks so much further down."""
+    if not len(boxes):
+        return np.empty(0)
     middles = np.column_stack(((boxes[:, 0] + boxes[:, 2]) / 2, (boxes[:, 1] + boxes[:, 3]) / 2))
     rays = foot_rays(camera, middles)
     return np.asarray(rays[:, 0] / (math.cos(pitch) - rays[:, 1] * math.sin(pitch)), dtype=np.float64)

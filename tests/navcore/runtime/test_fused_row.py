@@ -7,19 +7,20 @@ import math
 import numpy as np
 import pytest
 
+from navcore.geometry.lidar_mount import robot_lidar
 from navcore.geometry.se2 import SE2
 from navcore.messages import CameraName, CameraRequest, CameraView, DetectedObject, LidarScan, RowSource
 from navcore.perception.detector import Told
+from navcore.perception.plants.scan_eye import ScanEye
 from navcore.perception.row_perception import RowPerception, RowPerceptionParams
 from navcore.runtime.row_eye import RowEye
-from navcore.runtime.scan_eye import ScanEye, ScanEyeParams
 from tests.navcore.perception.corridor_views import FRONT, boxes_at, picture
 from tests.navcore.perception.scan.round_trunks import scan_of
 
 WIDTH = 2.5
 STEP = 0.08  # m between two pictures
 NS = 100_000_000  # between two pictures
-MOUNT = ScanEyeParams().mount
+MOUNT = robot_lidar()
 
 
 class Drive:
@@ -34,7 +35,7 @@ class Drive:
         self.stakes = np.column_stack((rng.uniform(0.0, 20.0, stakes), rng.uniform(-0.6, 0.6, stakes)))
         self.told, self.rng, self.i, self.pose = Told(), rng, 0, SE2(0.0, 0.1, 0.02)
         perception = RowPerception(FRONT, self.told, RowPerceptionParams())
-        eye = ScanEye() if lidar else None
+        eye = ScanEye(MOUNT) if lidar else None
         self.eye = RowEye({CameraName.FRONT: perception}, {CameraName.FRONT: FRONT}, eye)
 
     def look(self, *, camera: bool = True, scan: bool = True) -> CameraView:

@@ -7,7 +7,7 @@ import socket
 import pytest
 
 from navcore.errors import ConfigError
-from navcore.runtime.gnss_address import GnssAddress
+from navcore.runtime.device_address import DeviceAddress
 
 NO_RECEIVERS = (
     "", "tcp://", "tcp://host", "tcp://host:99999", "/dev/ttyUSB0", "serial://", "serial:///dev/ttyUSB0?fast",
@@ -18,12 +18,12 @@ NO_RECEIVERS = (
 @pytest.mark.parametrize("text", NO_RECEIVERS)
 def test_what_is_no_receiver_is_refused_with_an_example(text: str) -> None:
     with pytest.raises(ConfigError, match=r"Write tcp://host:port or serial:///dev/ttyUSB0\?115200"):
-        GnssAddress(text)
+        DeviceAddress(text)
 
 
 def test_a_receiver_on_the_network_is_opened() -> None:
     with socket.create_server(("127.0.0.1", 0)) as server:
-        source = GnssAddress(f"tcp://127.0.0.1:{server.getsockname()[1]}").open()
+        source = DeviceAddress(f"tcp://127.0.0.1:{server.getsockname()[1]}").open()
         client, _ = server.accept()
         client.sendall(b"$GP")
         data = b""
@@ -36,4 +36,4 @@ def test_a_receiver_on_the_network_is_opened() -> None:
 
 def test_a_receiver_that_is_not_there_is_an_os_error() -> None:
     with pytest.raises(OSError, match="no-such-port"):
-        GnssAddress("serial:///dev/no-such-port").open()
+        DeviceAddress("serial:///dev/no-such-port").open()

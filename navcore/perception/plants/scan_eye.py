@@ -10,10 +10,12 @@ from numpy.typing import NDArray
 from navcore.geometry.lidar_mount import LidarMount
 from navcore.geometry.se2 import SE2
 from navcore.messages import CameraView, LidarScan
+from navcore.perception.plants.odometry_trail import OdometryTrail
 from navcore.perception.plants.plant_tracker import PlantTracker, PlantTrackerParams
 from navcore.perception.plants.scanned_plants import ScannedPlants
 from navcore.perception.scan.scan_clusters import ScanClusterParams, ScanClusters
-from navcore.runtime.odometry_trail import OdometryTrail
+
+Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -21,12 +23,10 @@ class ScanEyeParams:
     """Parameters of `ScanEye`.
 
     Attributes:
-        mount: of the LiDAR; as paper B's, 0.25 m above the middle of the body.
         clusters, tracker: of its stages.
         late_s: a LiDAR whose newest scan is older than that is silent, s.
     """
 
-    mount: LidarMount = LidarMount(x=0.30, y=0.0, z=0.55)
     clusters: ScanClusterParams = field(default_factory=ScanClusterParams)
     tracker: PlantTrackerParams = field(default_factory=PlantTrackerParams)
     late_s: float = 0.35
@@ -35,12 +35,12 @@ class ScanEyeParams:
 class ScanEye:
     """One LiDAR's. `problem` is what is wrong with it, in a sentence; empty while all is well."""
 
-    def __init__(self, params: ScanEyeParams = ScanEyeParams()) -> None:
-        self.mount = params.mount
-        self._params = params
+    def __init__(self, mount: LidarMount, params: ScanEyeParams = ScanEyeParams()) -> None:
+        self.mount, self._params = mount, params
         self._clusters = ScanClusters(params.clusters)
-        self._tracker = PlantTracker(params.mount, params.tracker)
+        self._tracker = PlantTracker(mount, params.tracker)
         self._last: tuple[int, SE2] | None = None
+        self._ends: Floats = np.empty((0, 3))
         self.problem = "the LiDAR has sent nothing yet"
 
     def forget(self) -> None:
@@ -57,6 +57,7 @@ class ScanEye:
         angles, distances = np.asarray(scan.angles), np.asarray(scan.distances)
         self.problem = "" if np.any(distances > 0.0) else "the LiDAR sees nothing at all: is it covered?"
         motion = self._last[1].inverse() @ now if self._last else SE2()
+        self._ends = self.mount.ends(angles, distances)[distances > 0.0]
         self._tracker.see(self._clusters.find(angles, distances), motion, began.inverse() @ now)
         self._last = scan.stamp_ns, now
 
@@ -69,6 +70,13 @@ class ScanEye:
         if silent_s > self._params.late_s:
             self.problem = f"the LiDAR has been silent for {silent_s:.1f} s"
         return None if self.problem else self._tracker.plants(self._last[1].inverse() @ at)
+
+    def ends(self, stamp_ns: int, trail: OdometryTrail) -> Floats:
+        """Where the newest scan's rays end, (N, 3) in `base_link` at that moment, m; for drawing."""
+        at = trail.at(stamp_ns)
+        if self._last is None or at is None:
+            return np.empty((0, 3))
+        return np.column_stack(((at.inverse() @ self._last[1]).apply(self._ends[:, :2]), self._ends[:, 2]))
 
     def told(self, view: CameraView, expected: NDArray[np.int64]) -> None:
         """What a picture makes of the plants: which it shows, and which it does not of those `expected` (numbers)."""

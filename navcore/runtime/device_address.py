@@ -1,4 +1,4 @@
-"""Where the receiver is, in one line of text."""
+"""Where a device is, in one line of text."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from navcore.errors import ConfigError
 USUAL_BAUD = 115200
 
 
-class GnssAddress:
+class DeviceAddress:
     """`tcp://host:port` or `serial:///dev/ttyUSB0?115200`. Raises ConfigError for anything else."""
 
     def __init__(self, text: str) -> None:
@@ -18,11 +18,11 @@ class GnssAddress:
             self._parts = _checked(urlsplit(text))
         except ValueError as error:
             raise ConfigError(
-                f"'{text}' is no receiver. Write tcp://host:port or serial:///dev/ttyUSB0?115200."
+                f"'{text}' is no device. Write tcp://host:port or serial:///dev/ttyUSB0?115200."
             ) from error
 
     def open(self) -> ByteSource:
-        """A new line to the receiver. Raises OSError while there is none."""
+        """A new line to the device. Raises OSError while there is none."""
         parts = self._parts
         if parts.scheme == "tcp":
             return TcpSource(parts.hostname or "", parts.port or 0)
