@@ -85,8 +85,9 @@ class Lidar2d:
         self._step = math.tau * params.hz / params.rays_per_s
         self._turn_rays = round(params.rays_per_s / params.hz)
         self._cast_ns, self._began_ns = start_ns, start_ns
-        self._angles: list[float] = []
-        self._ranges: list[float] = []
+        self._angles: list[Floats] = []
+        self._ranges: list[Floats] = []
+        self._cast_rays = 0
         self._owed = 0.0
         self._sent: deque[LidarScan] = deque()
 
@@ -97,10 +98,10 @@ class Lidar2d:
         self._owed -= due
         done = 0
         while done < due:
-            part = min(due - done, self._turn_rays - len(self._angles))
+            part = min(due - done, self._turn_rays - self._cast_rays)
             self._cast(part, x, y, rpy)
             done += part
-            if len(self._angles) == self._turn_rays:
+            if self._cast_rays == self._turn_rays:
                 self._finish(now_ns - round((due - done) / self._params.rays_per_s * 1e9))
 
     def due(self, now_ns: int) -> tuple[LidarScan, ...]:
@@ -112,7 +113,7 @@ class Lidar2d:
 
     def _cast(self, count: int, x: float, y: float, rpy: tuple[float, float, float]) -> None:
         p = self._params
-        angles = -self._step * (len(self._angles) + np.arange(count, dtype=np.float64))
+        angles = -self._step * (self._cast_rays + np.arange(count, dtype=np.float64))
         R_map_base = rotation_from_rpy(*rpy)
         turned = angles + math.radians(self.faults.turned_deg)
         flat = np.column_stack((np.cos(turned), np.sin(turned), np.zeros(count)))
@@ -120,8 +121,9 @@ class Lidar2d:
         origin = R_map_base @ (p.mount.x, p.mount.y, p.mount.z) + (x, y, 0.0)
         near = np.flatnonzero(np.hypot(self._tubes[:, 0, 0] - x, self._tubes[:, 0, 1] - y) < p.far + 1.0)
         first, square, second = cast(origin, ways, self._tubes, near, self._walls, p.far)
-        self._angles += angles.tolist()
-        self._ranges += self._measured(angles, first, square, second).tolist()
+        self._angles.append(angles)
+        self._ranges.append(self._measured(angles, first, square, second))
+        self._cast_rays += count
 
     def _measured(self, angles: Floats, first: Floats, square: Floats, second: Floats) -> Floats:
         """Ranges as the device tells them, m, 0 where nothing came back."""
@@ -151,11 +153,12 @@ class Lidar2d:
         return np.asarray((bearing >= low) & (bearing <= high))
 
     def _finish(self, stamp_ns: int) -> None:
+        angles, ranges = np.concatenate(self._angles), np.concatenate(self._ranges)
         scan = LidarScan(
-            stamp_ns=stamp_ns, began_ns=self._began_ns, angles=tuple(round(a, 5) for a in self._angles),
-            distances=tuple(round(r, 4) for r in self._ranges),
+            stamp_ns=stamp_ns, began_ns=self._began_ns, angles=tuple(np.round(angles, 5).tolist()),
+            distances=tuple(np.round(ranges, 4).tolist()),
         )  # fmt: skip
-        self._angles, self._ranges, self._began_ns = [], [], stamp_ns
+        self._angles, self._ranges, self._cast_rays, self._began_ns = [], [], 0, stamp_ns
         if not self.faults.silent:
             self._sent.append(scan)
 

@@ -29,15 +29,17 @@ def cast(
     """
     n = len(ways)
     first, square, second = np.full(n, NOTHING), np.ones(n), np.full(n, NOTHING)
+    foot_x, foot_y = tubes[near, 0, 0] - origin[0], tubes[near, 0, 1] - origin[1]
     for i in range(n):
         if ways[i, 2] < -1e-6:
             _meet(i, -origin[2] / ways[i, 2], -ways[i, 2], far, first, square, second)
         for w in range(len(walls)):
             reach, facing = _wall(origin, ways[i], walls[w])
             _meet(i, reach, facing, far, first, square, second)
-        for k in near:
-            reach, facing = _tube(origin, ways[i], tubes[k])
-            _meet(i, reach, facing, far, first, square, second)
+        for k in range(len(near)):
+            if abs(foot_x[k] * ways[i, 1] - foot_y[k] * ways[i, 0]) < MOST_ASIDE:
+                reach, facing = _tube(origin, ways[i], tubes[near[k]])
+                _meet(i, reach, facing, far, first, square, second)
     return first, square, second
 
 
@@ -57,8 +59,6 @@ def _meet(i: int, reach: float, facing: float, far: float, first: Floats, square
 def _tube(origin: Floats, way: Floats, tube: Floats) -> tuple[float, float]:
     """Where a ray meets a crooked, tapering upright: the circle at the height at which it passes it."""
     foot_x, foot_y = tube[0, 0] - origin[0], tube[0, 1] - origin[1]
-    if abs(foot_x * way[1] - foot_y * way[0]) > MOST_ASIDE:
-        return NOTHING, 0.0
     level = math.sqrt(way[0] ** 2 + way[1] ** 2)
     ahead = (foot_x * way[0] + foot_y * way[1]) / (level * level)
     z = origin[2] + ahead * way[2]
