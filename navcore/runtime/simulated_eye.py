@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from navcore.geometry.lidar_mount import LidarMount
 from navcore.geometry.pinhole import PinholeCamera, robot_camera
 from navcore.messages import CameraName, CameraRequest, CameraView, LidarScan, SimTruth
+from navcore.perception.plants.scan_eye import ScanEye
 from navcore.perception.row_perception import RowPerception, RowPerceptionParams
 from navcore.runtime.row_eye import RowEye
 from navcore.sim.orchard import Orchard
@@ -21,7 +23,7 @@ def robot_cameras(*, width_px: int = 640, height_px: int = 360) -> dict[CameraNa
 
 
 class ProjectedEye:
-    """Row perception on boxes projected from the truth, without pixels."""
+    """Row perception on boxes projected from the truth, without pixels. `blind`: the camera gives no pictures."""
 
     def __init__(
         self,
@@ -29,6 +31,7 @@ class ProjectedEye:
         seed: int,
         perception: RowPerceptionParams | None = None,
         objects: ProjectedObjectsParams | None = None,
+        lidar: LidarMount | None = None,
     ) -> None:
         rng = np.random.default_rng(seed)
         cameras = robot_cameras()
@@ -37,10 +40,11 @@ class ProjectedEye:
         params = perception or RowPerceptionParams()
         camera = cameras[CameraName.FRONT]
         perceptions = {n: RowPerception(c, self._detectors[n], params) for n, c in cameras.items()}
-        self._eye = RowEye(perceptions, cameras)
+        self._eye = RowEye(perceptions, cameras, ScanEye(lidar) if lidar else None)
+        self.blind = False
         self._picture = rng.integers(0, 255, (camera.height_px, camera.width_px, 3), dtype=np.uint8)
 
     def look(self, truth: SimTruth, request: CameraRequest, scans: tuple[LidarScan, ...] = ()) -> CameraView:
         """See `lockstep.Eye`."""
         self._detectors[request.camera].look_from(truth)
-        return self._eye.look(self._picture, truth.stamp_ns, request, scans=scans)
+        return self._eye.look(None if self.blind else self._picture, truth.stamp_ns, request, scans=scans)

@@ -103,7 +103,8 @@ def off_line(tick: Tick, start: tuple[float, float], end: tuple[float, float]) -
 def new_drive(site: SiteMap, params: WorldParams) -> Drive:
     """A parked robot on the site that `params` make of the drawn one."""
     world = World(site, PAPER_A, params, start_ns=1_000_000_000)
-    lockstep = Lockstep(world, CONFIG.new_navigator(site.datum), ProjectedEye(world.orchard, params.seed))
+    eye = ProjectedEye(world.orchard, params.seed, lidar=params.lidar.mount if params.lidar else None)
+    lockstep = Lockstep(world, CONFIG.new_navigator(site.datum), eye)
     drive = Drive(lockstep)
     lockstep.listeners.append(drive.ticks.append)
     return drive
