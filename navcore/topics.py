@@ -108,6 +108,9 @@ IMU_SAMPLE = Topic(
     logged=True,
     shown=False,
 )
+LIDAR_SCAN = Topic(
+    name="lidar/scan", type=m.LidarScan, publisher="world", rate_hz=10, max_age_s=0.3, logged=True, shown=False
+)
 ROW_OBSERVATION = Topic(
     name="rows/observation", type=m.RowObservation, publisher="row_worker", rate_hz=10, max_age_s=0.5, logged=True,
     shown=False,
@@ -138,7 +141,7 @@ TOPICS: dict[str, Topic] = {
     t.name: t
     for t in (
         NAV_INPUTS, NAV_DECISION, NAV_STATUS, NAV_SWITCH, NAV_PLAN, CAMERA_REQUEST, GNSS_FIX, CHASSIS_STATE,
-        IMU_SAMPLE, ROW_OBSERVATION, CAMERA_VIEW, SIM_TRUTH, SIM_FARM, SIM_CONTACT, RECORDER_STATUS,
+        IMU_SAMPLE, LIDAR_SCAN, ROW_OBSERVATION, CAMERA_VIEW, SIM_TRUTH, SIM_FARM, SIM_CONTACT, RECORDER_STATUS,
         NAV_PRELUDE,
     )
 }  # fmt: skip

@@ -10,6 +10,7 @@ from navcore.maps.site_map import SiteMap
 from navcore.messages import CameraName
 from navcore.runtime.simulated_eye import robot_cameras
 from navcore.sim.camera_light import LightName, LightParams, named_light
+from navcore.sim.lidar2d import Lidar2dParams
 from navcore.sim.orchard import OrchardParams, Season
 from navcore.sim.world import World, WorldParams
 from navcore.vehicle import VehicleParams
@@ -32,6 +33,7 @@ class SimulationParams:
         camera_latency_ms: from exposure until the picture is there, 0 to 500; drawing it takes part of that time.
         picture_width_px, picture_height_px: of the drawn pictures; the published 1280 x 720 takes four times as long.
         detector: what finds trunks and posts.
+        lidar2d: whether the robot carries a 2D LiDAR, mounted as paper B's.
     """
 
     world_seed: int = 1
@@ -41,11 +43,13 @@ class SimulationParams:
     picture_width_px: int = 640
     picture_height_px: int = 360
     detector: DetectorKind = DetectorKind.PIXELS
+    lidar2d: bool = False
 
     def world(self, site: SiteMap, vehicle: VehicleParams, start_ns: int) -> World:
         """The world of this simulation."""
         orchard = OrchardParams(seed=self.world_seed, season=self.season)
-        return World(site, vehicle, WorldParams(seed=self.world_seed, orchard=orchard), start_ns)
+        lidar2d = Lidar2dParams() if self.lidar2d else None
+        return World(site, vehicle, WorldParams(seed=self.world_seed, orchard=orchard, lidar2d=lidar2d), start_ns)
 
     def mounts(self) -> dict[CameraName, PinholeCamera]:
         """Front and rear camera."""

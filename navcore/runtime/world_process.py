@@ -25,7 +25,7 @@ from navcore.runtime.simulation import SimulationParams
 from navcore.runtime.site_file import read_site
 from navcore.sim.scout_ecu import ScoutEcu, ScoutEcuParams
 from navcore.sim.world import WorldOutput
-from navcore.topics import IMU_SAMPLE, SIM_CONTACT, SIM_FARM, SIM_TRUTH
+from navcore.topics import IMU_SAMPLE, LIDAR_SCAN, SIM_CONTACT, SIM_FARM, SIM_TRUTH
 from navcore.transport.endpoints import Endpoints
 from navcore.transport.pubsub import Publisher
 from navcore.vehicle import PROFILES, VehicleParams
@@ -97,6 +97,8 @@ class WorldProcess:
     def _tell(self, output: WorldOutput) -> None:
         for sample in output.imu:
             self._publisher.publish(IMU_SAMPLE.name, sample)
+        for scan in output.scans:
+            self._publisher.publish(LIDAR_SCAN.name, scan)
         for contact in output.contacts:
             self._publisher.publish(SIM_CONTACT.name, contact)
         if self._truth.due(self._now_ns):
