@@ -153,7 +153,7 @@ def _cameras(endpoints: Endpoints, site: Path, params: SimulationParams | None, 
 def _scans(endpoints: Endpoints, params: SimulationParams | None, config: RobotConfig) -> Scans | None:
     """The LiDAR, None where there is none."""
     if params is not None:
-        return SimulatedScans(endpoints, params.lidar_mount()) if params.lidar else None
+        return SimulatedScans(endpoints, params.lidar_mount()) if params.lidar2d else None
     return RealScans(config.lidar) if config.lidar.address else None
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import StrEnum
 
-from navcore.geometry.lidar_mount import LidarMount
+from navcore.geometry.lidar_mount import LidarMount, robot_lidar
 from navcore.geometry.pinhole import PinholeCamera
 from navcore.maps.site_map import SiteMap
 from navcore.messages import CameraName
@@ -34,7 +34,7 @@ class SimulationParams:
         camera_latency_ms: from exposure until the picture is there, 0 to 500; drawing it takes part of that time.
         picture_width_px, picture_height_px: of the drawn pictures; the published 1280 x 720 takes four times as long.
         detector: what finds trunks and posts.
-        lidar: whether the robot has a 2D LiDAR.
+        lidar2d: whether the robot carries a 2D LiDAR, mounted as paper B's.
     """
 
     world_seed: int = 1
@@ -44,17 +44,17 @@ class SimulationParams:
     picture_width_px: int = 640
     picture_height_px: int = 360
     detector: DetectorKind = DetectorKind.PIXELS
-    lidar: bool = False
+    lidar2d: bool = False
 
     def world(self, site: SiteMap, vehicle: VehicleParams, start_ns: int) -> World:
         """The world of this simulation."""
         orchard = OrchardParams(seed=self.world_seed, season=self.season)
-        lidar = Lidar2dParams() if self.lidar else None
-        return World(site, vehicle, WorldParams(seed=self.world_seed, orchard=orchard, lidar=lidar), start_ns)
+        lidar2d = Lidar2dParams() if self.lidar2d else None
+        return World(site, vehicle, WorldParams(seed=self.world_seed, orchard=orchard, lidar2d=lidar2d), start_ns)
 
     def lidar_mount(self) -> LidarMount:
-        """Of the simulated LiDAR."""
-        return Lidar2dParams().mount
+        """Of the 2D LiDAR."""
+        return robot_lidar()
 
     def mounts(self) -> dict[CameraName, PinholeCamera]:
         """Front and rear camera."""

@@ -50,7 +50,8 @@ class Scene:
 
     def __init__(self, orchard: Orchard, light: LightParams, tint: GroundTint | None = None) -> None:
         wood = planted(orchard, leaf_cards(orchard))
-        self.orchard, self.light, self.tubes = orchard, light, wood.tubes
+        self.orchard, self.light = orchard, light
+        self.tubes = wood.tubes[: len(orchard.trunks) + len(orchard.posts)]
         self.chunks: Chunks = into_chunks(wood)
         self.atlas: Atlas = build_atlas(orchard)
         self.tables, self.lighting = build_tables(light), daylight(light)

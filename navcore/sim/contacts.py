@@ -11,7 +11,8 @@ from shapely.affinity import affine_transform
 
 from navcore.maps.site_map import Point, SiteMap, ZoneKind
 from navcore.messages import SimContact
-from navcore.sim.orchard import Orchard, Shed
+from navcore.sim.orchard import Orchard
+from navcore.sim.shed import Shed
 from navcore.vehicle import VehicleParams
 
 _CELL_M = 2.0

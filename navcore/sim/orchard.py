@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import IntEnum, StrEnum
 
 import numpy as np
 from numpy.typing import NDArray
 
 from navcore.errors import InputError
-from navcore.maps.site_map import PlantKind, SiteMap, Warehouse
+from navcore.maps.site_map import PlantKind, SiteMap
+from navcore.sim.clutter import NO_CLUTTER, Clutter, ClutterParams, grow_clutter
 from navcore.sim.orchard_lines import PlantLine, plant_lines
+from navcore.sim.shed import Shed, placed_shed
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -65,27 +66,33 @@ class OrchardParams:
         seed: of everything random here; >= 0.
         season: decides how much of the canopy has leaves.
         trellis: how the plants are trained.
-        posts: what the posts are made of.
+        posts: what the posts are made of; None plants none, as where young trees stand free.
         scatter_std: 1-sigma of a plant's place about its spot, both ways, 0 to 0.5 (paper C: trunks within 5 cm).
         missing_share: share of plants that are not there, 0 to 0.9.
         trunk_radius: mean radius of a vine's trunk, 0.01 to 0.3; trees are 1.4 times as thick.
+        trunk_spread: least and most radius of a trunk as a multiple of that, within 0.2 to 3.
         post_radius: 0.01 to 0.2; steel posts are 0.6 times as thick.
         height: of the posts above ground, 1.0 to 6.0; None takes the trellis' usual one.
+        canopy: (bottom, top, half width) of the canopy, m, bottom within 0.3 to 5; None takes the trellis' usual one.
         leaf_density: 0 to 1; None takes the season's.
         merge_distance: lines of plants closer than this are one line, 0 to 2.
+        clutter: weeds and stakes; none by default.
     """
 
     seed: int = 1
     season: Season = Season.GROWING
     trellis: Trellis = Trellis.ROOF
-    posts: PostKind = PostKind.CEMENT
+    posts: PostKind | None = PostKind.CEMENT
     scatter_std: float = 0.03
     missing_share: float = 0.04
     trunk_radius: float = 0.035
+    trunk_spread: tuple[float, float] = (0.75, 1.3)
     post_radius: float = 0.05
     height: float | None = None
+    canopy: tuple[float, float, float] | None = None
     leaf_density: float | None = None
     merge_distance: float = 0.6
+    clutter: ClutterParams = field(default_factory=ClutterParams)
 
     def __post_init__(self) -> None:
         bounds = {
@@ -97,18 +104,11 @@ class OrchardParams:
             value = getattr(self, name)
             if value is not None and not low <= value <= high:
                 raise InputError(f"The orchard's {name} must lie between {low} and {high}, but is {value}.")
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Shed:
-    """The warehouse building: a box in `map`, m and rad; `x`, `y` is its middle, `length` runs along `yaw`."""
-
-    x: float
-    y: float
-    yaw: float
-    length: float = 12.0
-    depth: float = 8.0
-    height: float = 4.0
+        if not 0.2 <= self.trunk_spread[0] <= self.trunk_spread[1] <= 3.0:
+            raise InputError(f"The orchard's trunk_spread must rise within 0.2 and 3, but is {self.trunk_spread}.")
+        bottom, top, half_width = self.canopy or (0.9, 3.2, 0.8)
+        if not (0.3 <= bottom <= 5.0 and bottom < top <= 10.0 and 0.05 <= half_width <= 5.0):
+            raise InputError(f"The orchard's canopy must be (bottom, top, half width) in m, but is {self.canopy}.")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -128,6 +128,7 @@ class Orchard:
         canopy_half_width_m: of the canopy about its line of plants; for a roof half of the widest alley.
         roads: (R, 5) x0, y0, x1, y1, half width of each stretch of road.
         shed: the warehouse building, None where the site has none or no place is free for it.
+        clutter: weeds and stakes, never labelled as trunk or post.
     """
 
     params: OrchardParams
@@ -145,6 +146,7 @@ class Orchard:
     canopy_half_width_m: float
     roads: Floats
     shed: Shed | None
+    clutter: Clutter = NO_CLUTTER
 
     @property
     def trellis(self) -> Trellis:
@@ -172,6 +174,8 @@ def build_orchard(site: SiteMap, params: OrchardParams) -> Orchard:
     """Plant the site. The same site and params give the same orchard, bit for bit."""
     lines = plant_lines(site, params.merge_distance)
     bottom, top, half_width, height = _CANOPY[params.trellis]
+    if params.canopy is not None:
+        bottom, top, half_width = params.canopy
     rng = np.random.default_rng(params.seed)
     posts, post_line = _stand(lines, site, PlantKind.POST, params, params.height or height, rng)
     trunks, trunk_line = _stand(lines, site, PlantKind.TRUNK, params, bottom, rng)
@@ -185,7 +189,8 @@ def build_orchard(site: SiteMap, params: OrchardParams) -> Orchard:
         leaf_density=_LEAVES[params.season] if params.leaf_density is None else params.leaf_density,
         canopy_bottom_m=bottom, canopy_top_m=top,
         canopy_half_width_m=half_width or float(reach.max(initial=1.5)),
-        roads=roads, shed=_shed(site.warehouse, roads, ends),
+        roads=roads, shed=placed_shed(site.warehouse, roads, ends),
+        clutter=grow_clutter(trunks, trunk_line, ends, params.clutter, params.seed),
     )  # fmt: skip
 
 
@@ -202,7 +207,10 @@ def _stand(
     owner[owner == len(lines)] = -1
     n = len(places)
     standing, radius = _standing(kind, params)
-    sizes = height * rng.uniform(0.97, 1.04, n), radius * rng.uniform(0.75, 1.3, n) ** (kind is PlantKind.TRUNK)
+    sizes = (
+        height * rng.uniform(0.97, 1.04, n),
+        radius * rng.uniform(*params.trunk_spread, n) ** (kind is PlantKind.TRUNK),
+    )
     return np.column_stack((places, np.zeros(n), *sizes, np.full(n, float(standing)))), owner
 
 
@@ -211,15 +219,17 @@ def _along(line: PlantLine, kind: PlantKind, params: OrchardParams, rng: np.rand
     known = [(p.x, p.y) for p in line.surveyed if p.kind is kind]
     if known:
         return np.array(known)
-    spots, missing_share = _spots(line, kind), 0.0 if kind is PlantKind.POST else params.missing_share
+    spots, missing_share = _spots(line, kind, params), 0.0 if kind is PlantKind.POST else params.missing_share
     scatter = rng.normal(0.0, params.scatter_std, (len(spots), 2))
     there = rng.random(len(spots)) >= missing_share
     return line.place(spots + scatter[:, 0], scatter[:, 1])[there]
 
 
-def _spots(line: PlantLine, kind: PlantKind) -> Floats:
+def _spots(line: PlantLine, kind: PlantKind, params: OrchardParams) -> Floats:
     """Positions along a line: posts at both ends and evenly between, trunks from half a spacing on."""
     if kind is PlantKind.POST:
+        if params.posts is None:
+            return np.zeros(0)
         return np.linspace(0.0, line.length, max(round(line.length / max(line.post_spacing, 0.2)), 1) + 1)
     spacing = max(line.plant_spacing, 0.2)
     return np.arange(spacing / 2, line.length, spacing)
@@ -230,37 +240,10 @@ def _standing(kind: PlantKind, params: OrchardParams) -> tuple[Standing, float]:
         tree = params.trellis is Trellis.TREES
         return (Standing.TREE, params.trunk_radius * 1.4) if tree else (Standing.VINE, params.trunk_radius)
     thin = 0.6 if params.posts is PostKind.STEEL else 1.0
-    return Standing[params.posts.name], params.post_radius * thin
+    return Standing[(params.posts or PostKind.WOOD).name], params.post_radius * thin
 
 
 def _roads(site: SiteMap) -> Floats:
     return np.array(
         [(*a, *b, lane.width / 2) for lane in site.lanes for a, b in zip(lane.points, lane.points[1:], strict=False)]
     ).reshape(-1, 5)
-
-
-def _shed(warehouse: Warehouse | None, roads: Floats, lines: Floats) -> Shed | None:
-    """The building beside the parked robot, at the first of back, left and right that is free of roads and plants."""
-    if warehouse is None:
-        return None
-    for side in (math.pi, math.pi / 2, -math.pi / 2):
-        bearing = warehouse.yaw + side
-        away = 4.0 + 2.5
-        shed = Shed(
-            x=warehouse.x + away * math.cos(bearing), y=warehouse.y + away * math.sin(bearing),
-            yaw=bearing + math.pi / 2,
-        )  # fmt: skip
-        if _clear(shed, roads[:, :4], 1.0 + roads[:, 4]) and _clear(shed, lines, np.full(len(lines), 1.5)):
-            return shed
-    return None
-
-
-def _clear(shed: Shed, segments: Floats, margin: Floats) -> bool:
-    """Whether no segment (N, 4) comes closer to the shed's walls than its margin (N,)."""
-    t = np.linspace(0.0, 1.0, 200)[:, None]
-    c, s = math.cos(shed.yaw), math.sin(shed.yaw)
-    dx = segments[:, 0] + t * (segments[:, 2] - segments[:, 0]) - shed.x
-    dy = segments[:, 1] + t * (segments[:, 3] - segments[:, 1]) - shed.y
-    outside_x = np.maximum(np.abs(dx * c + dy * s) - shed.length / 2, 0.0)
-    outside_y = np.maximum(np.abs(dy * c - dx * s) - shed.depth / 2, 0.0)
-    return bool(np.all(np.hypot(outside_x, outside_y) >= margin))

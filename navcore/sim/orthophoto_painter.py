@@ -18,7 +18,8 @@ from shapely import MultiPoint
 
 from navcore.geometry.geodesy import EnuFrame
 from navcore.maps.site_map import Point, SiteMap, ZoneKind
-from navcore.sim.orchard import Orchard, OrchardParams, Shed, build_orchard
+from navcore.sim.orchard import Orchard, OrchardParams, build_orchard
+from navcore.sim.shed import Shed
 
 Floats = NDArray[np.float64]
 Picture = NDArray[np.float32]

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter
 from scipy.spatial import cKDTree
 
+from navcore.errors import InputError
 from navcore.maps.site_map import Point, SiteMap
 
 Floats = NDArray[np.float64]
@@ -60,6 +61,8 @@ class TerrainParams:
 
     Attributes:
         slope_max_deg: of the whole site, drawn from 0 to this, any direction; 0 to 15.
+        cross_slope_deg: instead of that, how steeply the site rises to the left of its first row, -15 to 15; None for
+            the drawn one.
         tilt_std_deg: 1-sigma of the bumps' slope over a robot's length, 0 to 3 (so about +-2 deg).
         rut_depth: of the two wheel ruts along lanes and rows, m, 0 to 0.1.
         rut_track: distance between the two ruts, m, 0.5 to 2.
@@ -68,12 +71,17 @@ class TerrainParams:
     """
 
     slope_max_deg: float = 1.5
+    cross_slope_deg: float | None = None
     tilt_std_deg: float = 0.6
     rut_depth: float = 0.02
     rut_track: float = 1.1
     wet_share: float = 0.12
     soil_share: float = 0.20
     cell: float = 0.2
+
+    def __post_init__(self) -> None:
+        if self.cross_slope_deg is not None and not -15.0 <= self.cross_slope_deg <= 15.0:
+            raise InputError(f"The terrain's cross_slope_deg must lie within 15, but is {self.cross_slope_deg}.")
 
 
 class Terrain:
@@ -85,7 +93,7 @@ class Terrain:
         self._columns, self._row_count = len(xs), len(ys)
         centres = np.column_stack([a.ravel() for a in np.meshgrid(xs, ys)])
         bumps = _bumps((len(ys), len(xs)), params, rng)
-        self._slope = _slope(params, rng)
+        self._slope = _slope(site, params, rng)
         heights = bumps + np.asarray(centres @ self._slope).reshape(len(ys), len(xs))
         heights -= _ruts(centres, site, params).reshape(heights.shape)
         self._heights = np.ascontiguousarray(heights.ravel()).data
@@ -161,9 +169,12 @@ def _bumps(shape: tuple[int, int], params: TerrainParams, rng: np.random.Generat
     return np.asarray(total * math.tan(math.radians(params.tilt_std_deg)) / slope.std())
 
 
-def _slope(params: TerrainParams, rng: np.random.Generator) -> tuple[float, float]:
+def _slope(site: SiteMap, params: TerrainParams, rng: np.random.Generator) -> tuple[float, float]:
     """Rise of the whole site towards east and north, m per m."""
     slope, direction = math.tan(math.radians(rng.uniform(0.0, params.slope_max_deg))), rng.uniform(-math.pi, math.pi)
+    if params.cross_slope_deg is not None and site.rows:
+        (x0, y0), (x1, y1) = site.rows[0].start, site.rows[0].end
+        slope, direction = math.tan(math.radians(params.cross_slope_deg)), math.atan2(x1 - x0, y0 - y1)
     return slope * math.cos(direction), slope * math.sin(direction)
 
 

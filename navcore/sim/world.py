@@ -7,7 +7,8 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from navcore.errors import ContractError, InputError, NotFiniteError
+from navcore.errors import ContractError, NotFiniteError
+from navcore.geometry.lidar_mount import LidarMount, robot_lidar
 from navcore.geometry.pinhole import rotation_from_rpy
 from navcore.maps.site_map import SiteMap
 from navcore.messages import ImuSample, LidarScan, SimContact, SimFarm, SimTruth, TrueRow
@@ -15,12 +16,12 @@ from navcore.sim.canopy import Canopy, CanopyParams
 from navcore.sim.contacts import ContactDetector
 from navcore.sim.gnss_receiver import AntennaState, GnssReceiver, GnssReceiverParams
 from navcore.sim.imu import Imu, ImuParams
-from navcore.sim.lidar2d import Lidar2d, Lidar2dParams
+from navcore.sim.lidar2d import WORKING, Lidar2d, Lidar2dFaults, Lidar2dParams
 from navcore.sim.map_error import MapErrorParams, perturb
 from navcore.sim.orchard import Orchard, OrchardParams, build_orchard
+from navcore.sim.parking import parked
 from navcore.sim.terrain import SURFACE_TRAITS, Surface, Terrain, TerrainParams
 from navcore.sim.vehicle_dynamics import VehicleDynamics, VehicleDynamicsParams, WheelState
-from navcore.sim.world_faults import WorldFaults
 from navcore.vehicle import VehicleParams
 
 STEP_NS = 5_000_000
@@ -37,7 +38,8 @@ class WorldParams:
         start: (x, y, yaw) of the robot in the true world; None parks it at the warehouse, not quite as drawn.
         parking_std_m, parking_std_deg: 1-sigma of that.
         payload: on the robot, kg.
-        orchard, map_error, terrain, dynamics, imu, canopy, gnss: levels of each part. lidar: None for none.
+        orchard, map_error, terrain, dynamics, imu, canopy, gnss: levels of each part.
+        lidar2d: of the 2D LiDAR, None for a robot without one. lidar_mount: where it truly sits.
     """
 
     seed: int = 1
@@ -52,7 +54,34 @@ class WorldParams:
     imu: ImuParams = field(default_factory=ImuParams)
     canopy: CanopyParams = field(default_factory=CanopyParams)
     gnss: GnssReceiverParams = field(default_factory=GnssReceiverParams)
-    lidar: Lidar2dParams | None = None
+    lidar2d: Lidar2dParams | None = None
+    lidar_mount: LidarMount = field(default_factory=robot_lidar)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WorldFaults:
+    """Faults that a test can switch on at any instant, by replacing `World.faults`.
+
+    Attributes:
+        gnss_silent: the receiver sends nothing. gnss_frozen: fresh times, old position.
+        corrections_lost: no RTK corrections arrive. gnss_off: it lies by so much east and north, m.
+        imu_silent, imu_frozen: likewise.
+        wheels_frozen: the chassis reports its last wheel state with fresh stamps.
+        stuck: the wheels turn and the robot stays.
+        drive_gain: the chassis drives so many times what it was told.
+        lidar: what is broken of the 2D LiDAR.
+    """
+
+    gnss_silent: bool = False
+    gnss_frozen: bool = False
+    corrections_lost: bool = False
+    gnss_off: tuple[float, float] = (0.0, 0.0)
+    imu_silent: bool = False
+    imu_frozen: bool = False
+    wheels_frozen: bool = False
+    stuck: bool = False
+    drive_gain: float = 1.0
+    lidar: Lidar2dFaults = WORKING
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -65,7 +94,8 @@ class WorldOutput:
         imu: samples that have arrived since the last call, oldest first.
         nmea: bytes that have arrived since the last call.
         contacts: things touched since the last call.
-        scans: of the LiDAR, that have arrived since the last call, oldest first.
+        scans: turns of the 2D LiDAR that have arrived since the last call, oldest first.
+        scan_owners: of each, what its rays truly met, as in `SimScan`; never an input of the navigator.
     """
 
     truth: SimTruth
@@ -74,6 +104,7 @@ class WorldOutput:
     nmea: bytes
     contacts: tuple[SimContact, ...]
     scans: tuple[LidarScan, ...] = ()
+    scan_owners: tuple[tuple[int, ...], ...] = ()
 
 
 class World:
@@ -95,7 +126,7 @@ class World:
         self.faults = WorldFaults()
         self.touched: list[SimContact] = []
         self._terrain = Terrain(self.site, params.terrain, ground_rng)
-        pose = _parked(self.site, params, park_rng)
+        pose = parked(self.site, params.start, params.parking_std_m, params.parking_std_deg, park_rng)
         self._drive = VehicleDynamics(vehicle, params.dynamics, params.payload, pose, drive_rng)
         canopy = Canopy(self.orchard, params.canopy, params.seed)
         self._gnss = GnssReceiver(site.datum, canopy, params.gnss, gnss_rng)
@@ -103,11 +134,14 @@ class World:
         self._ground = self._feel_ground()
         self._imu = Imu(params.imu, *self._ground[:2], imu_rng)
         self._imu_latency_ns = round(params.imu.latency_s * 1e9)
-        self._lidar = Lidar2d(self.orchard, params.lidar, lidar_rng, start_ns) if params.lidar else None
         self._acceleration = 0.0
         self._imu_sent: list[ImuSample] = []
         self._contacts: list[SimContact] = []
         self._wheels = self._drive.wheels(start_ns)
+        self._lidar: Lidar2d | None = None
+        if params.lidar2d is not None:
+            self._lidar = Lidar2d(self.orchard, params.lidar_mount, params.lidar2d, lidar_rng)
+            self._lidar.update(self._truth())
 
     def advance(self, now_ns: int, v: float, omega: float) -> WorldOutput:
         """Run to `now_ns` with the chassis' target set to (v, omega) from the last instant on.
@@ -142,9 +176,10 @@ class World:
             self._sample_imu()
         if self._steps % _CONTACT_STEPS == 0:
             self._contacts += self._detector.update(self._now_ns, drive.x, drive.y, drive.yaw)
-        self._scan()
         if (self._now_ns - self._start_ns) % self._gnss.period_ns < STEP_NS:
             self._receive()
+        if self._lidar is not None:
+            self._lidar.update(self._truth(), self.faults.lidar)
 
     def _feel_ground(self) -> tuple[float, float, Surface]:
         """Roll and pitch (rad) of the ground under the wheels, and what it is made of."""
@@ -163,16 +198,6 @@ class World:
             sample = replace(self._imu_sent[-1], stamp_ns=self._now_ns)
         if not self.faults.imu_silent:
             self._imu_sent.append(sample)
-
-    def _scan(self) -> None:
-        if self._lidar is not None:
-            self._lidar.faults = self.faults.lidar
-            self._lidar.step(self._now_ns, self._drive.x, self._drive.y, self._lean())
-
-    def _lean(self) -> tuple[float, float, float]:
-        """Roll, pitch and yaw of the body against the ground's mean plane, rad."""
-        land_roll, land_pitch = self._terrain.land_tilt(self._drive.yaw)
-        return self._imu.roll - land_roll, self._imu.pitch - land_pitch, self._drive.yaw
 
     def _receive(self) -> None:
         if self.faults.gnss_silent:
@@ -201,11 +226,15 @@ class World:
             ground=self._terrain.height(d.x, d.y),
         )
 
-    def _output(self, now_ns: int) -> WorldOutput:
-        d, (roll, pitch, yaw) = self._drive, self._lean()
-        truth = SimTruth(
-            stamp_ns=self._now_ns, x=d.x, y=d.y, yaw=yaw, roll=roll, pitch=pitch, v=d.v, omega=d.omega
+    def _truth(self) -> SimTruth:
+        d = self._drive
+        land_roll, land_pitch = self._terrain.land_tilt(d.yaw)
+        return SimTruth(
+            stamp_ns=self._now_ns, x=d.x, y=d.y, yaw=d.yaw, roll=self._imu.roll - land_roll,
+            pitch=self._imu.pitch - land_pitch, v=d.v, omega=d.omega,
         )  # fmt: skip
+
+    def _output(self, now_ns: int) -> WorldOutput:
         arrived = [s for s in self._imu_sent if s.stamp_ns + self._imu_latency_ns <= now_ns]
         self._imu_sent = self._imu_sent[len(arrived) :]
         contacts, self._contacts = tuple(self._contacts), []
@@ -213,19 +242,9 @@ class World:
         if self.faults.wheels_frozen:
             self._wheels = replace(self._wheels, stamp_ns=self._now_ns)
         else:
-            self._wheels = d.wheels(self._now_ns)
+            self._wheels = self._drive.wheels(self._now_ns)
+        turns = () if self._lidar is None else self._lidar.due(now_ns)
         return WorldOutput(
-            truth=truth, wheels=self._wheels, imu=tuple(arrived), nmea=self._gnss.due(now_ns), contacts=contacts,
-            scans=self._lidar.due(now_ns) if self._lidar else (),
+            truth=self._truth(), wheels=self._wheels, imu=tuple(arrived), nmea=self._gnss.due(now_ns),
+            contacts=contacts, scans=tuple(t.scan for t in turns), scan_owners=tuple(t.owners for t in turns),
         )  # fmt: skip
-
-
-def _parked(site: SiteMap, params: WorldParams, rng: np.random.Generator) -> tuple[float, float, float]:
-    """Where the robot stands at first."""
-    if params.start is not None:
-        return params.start
-    if site.warehouse is None:
-        raise InputError("Draw the warehouse first: without one the simulated robot has no place to stand.")
-    dx, dy, turn = rng.standard_normal(3)
-    w, std = site.warehouse, params.parking_std_m
-    return float(w.x + std * dx), float(w.y + std * dy), float(w.yaw + math.radians(params.parking_std_deg) * turn)

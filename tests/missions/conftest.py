@@ -103,7 +103,7 @@ def off_line(tick: Tick, start: tuple[float, float], end: tuple[float, float]) -
 def new_drive(site: SiteMap, params: WorldParams) -> Drive:
     """A parked robot on the site that `params` make of the drawn one."""
     world = World(site, PAPER_A, params, start_ns=1_000_000_000)
-    eye = ProjectedEye(world.orchard, params.seed, lidar=params.lidar.mount if params.lidar else None)
+    eye = ProjectedEye(world.orchard, params.seed, lidar=params.lidar_mount if params.lidar2d else None)
     lockstep = Lockstep(world, CONFIG.new_navigator(site.datum), eye)
     drive = Drive(lockstep)
     lockstep.listeners.append(drive.ticks.append)

@@ -12,7 +12,7 @@ from navcore.maps.site_map import SiteMap
 from navcore.messages import NavMode, RowObservation, RowSource, RunState
 from navcore.planning.mission_planner import mission_for_row
 from navcore.runtime.simulated_eye import ProjectedEye
-from navcore.sim.lidar2d import Lidar2dParams, LidarFaults
+from navcore.sim.lidar2d import Lidar2dFaults, Lidar2dParams
 from navcore.sim.world import WorldParams
 from tests.missions.conftest import Drive, new_drive
 
@@ -22,7 +22,7 @@ FINISH_S = 600
 @pytest.fixture
 def in_row(farm: SiteMap) -> Drive:
     """Three seconds into a row, with camera and LiDAR."""
-    drive = new_drive(farm, WorldParams(seed=1, lidar=Lidar2dParams()))
+    drive = new_drive(farm, WorldParams(seed=1, lidar2d=Lidar2dParams()))
     drive.start(farm, mission_for_row(farm, "r1", RowExit.REVERSE))
     drive.until_mode(NavMode.ROW)
     drive.until(lambda _: False, seconds=3)
@@ -51,7 +51,7 @@ def test_robot_drives_into_a_row_and_back_out_by_camera_and_lidar(in_row: Drive)
 
 def test_the_lidar_is_unplugged_in_mid_row_and_the_mission_goes_on(in_row: Drive) -> None:
     world = in_row.lockstep.world
-    world.faults = replace(world.faults, lidar=LidarFaults(silent=True))
+    world.faults = replace(world.faults, lidar=Lidar2dFaults(silent=True))
     in_row.until(lambda _: False, seconds=2)
     last = seen(in_row)[-1]
     assert last.source is RowSource.CAMERA

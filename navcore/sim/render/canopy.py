@@ -1,4 +1,4 @@
-"""Leaf cards of an orchard's canopy and tufts of grass beside its lines of plants."""
+"""Leaf cards of an orchard's canopy, tufts of grass beside its lines of plants, and its weeds."""
 
 from __future__ import annotations
 
@@ -8,6 +8,8 @@ import numpy as np
 
 from navcore.sim.orchard import Orchard, Season, Trellis
 from navcore.sim.render.buffers import Floats
+from navcore.sim.render.cards import turned_cards
+from navcore.sim.render.undergrowth import weed_cards
 from navcore.sim.textures.atlas import Material
 
 _VSP_CARDS_PER_M = 17.0
@@ -22,7 +24,8 @@ def leaf_cards(orchard: Orchard) -> Floats:
     rng = np.random.default_rng((orchard.params.seed, 13))
     grow = {Trellis.VSP: _wall, Trellis.ROOF: _roof, Trellis.TREES: _crowns}[orchard.trellis]
     leaves = grow(orchard, rng)
-    return np.concatenate((leaves, _tufts(orchard, rng)))
+    weeds = weed_cards(orchard.clutter, orchard.params.seed)
+    return np.concatenate((leaves, _tufts(orchard, rng), weeds))
 
 
 def _spots(orchard: Orchard, per_m: Floats, rng: np.random.Generator) -> tuple[Floats, Floats, Floats]:
@@ -87,7 +90,7 @@ def _placed(
     middle = np.column_stack((spot + side[:, None] * np.column_stack((-along[:, 1], along[:, 0])), z))
     material = np.asarray(_LEAF_MATERIALS, dtype=np.float64)[rng.integers(0, 3, n)]
     tint = rng.uniform(0.82, 1.18, n) * (1.0 - inner)
-    return _cards(middle, along, size, turn, tilt, material, tint, rng)
+    return turned_cards(middle, along, size, turn, tilt, material, tint, rng)
 
 
 def _tufts(orchard: Orchard, rng: np.random.Generator) -> Floats:
@@ -98,17 +101,4 @@ def _tufts(orchard: Orchard, rng: np.random.Generator) -> Floats:
     size = rng.uniform(0.04, 0.12, n)
     middle = np.column_stack((spot + side[:, None] * np.column_stack((-along[:, 1], along[:, 0])), size * 0.95))
     material, tint = np.full(n, float(Material.TUFT)), rng.uniform(0.6, 1.15, n)
-    return _cards(middle, along, size, rng.uniform(0, math.pi, n), np.zeros(n), material, tint, rng)
-
-
-def _cards(
-    middle: Floats, along: Floats, size: Floats, turn: Floats, tilt: Floats, material: Floats, tint: Floats,
-    rng: np.random.Generator,
-) -> Floats:  # fmt: skip
-    bearing = np.arctan2(along[:, 1], along[:, 0]) + turn
-    c, s = np.cos(bearing), np.sin(bearing)
-    u = np.column_stack((c, s, np.zeros_like(c)))
-    v = np.column_stack((-s * np.sin(tilt), c * np.sin(tilt), np.cos(tilt)))
-    normal = np.cross(u, v)
-    keep = rng.uniform(0.0, 1.0, len(middle))
-    return np.column_stack((middle, u * size[:, None], v * size[:, None], normal, material, tint, keep))
+    return turned_cards(middle, along, size, rng.uniform(0, math.pi, n), np.zeros(n), material, tint, rng)

@@ -7,9 +7,11 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from navcore.sim.orchard import Orchard, Shed, Standing, Trellis
+from navcore.sim.orchard import Orchard, Standing, Trellis
 from navcore.sim.render.buffers import Floats
 from navcore.sim.render.primitives import RINGS, Primitives
+from navcore.sim.render.undergrowth import stake_tubes, weed_stalks
+from navcore.sim.shed import Shed
 from navcore.sim.textures.atlas import Material
 
 _POST_LOOK = {
@@ -20,15 +22,22 @@ _WIRE_PIECE_M = 2.5
 
 
 def planted(orchard: Orchard, cards: Floats) -> Primitives:
-    """All primitives of an orchard with the given leaf cards; owners count trunks first, then posts, from 1."""
+    """All primitives of an orchard with the given leaf cards.
+
+    Owners count trunks first, then posts, from 1; their tubes come first. Stakes have no owner: 0.
+    """
     rng = np.random.default_rng((orchard.params.seed, 11))
     trunks, posts = _trunks(orchard.trunks, rng), _posts(orchard.posts, rng)
-    look = np.concatenate((np.full(len(trunks), Material.BARK), _post_materials(orchard.posts[:, 5])))
+    stakes = stake_tubes(orchard.clutter)
+    wood = np.full(len(stakes), Material.WOOD, dtype=np.int64)
+    look = np.concatenate((np.full(len(trunks), Material.BARK), _post_materials(orchard.posts[:, 5]), wood))
+    owners = np.concatenate((np.arange(1, len(trunks) + len(posts) + 1), np.zeros(len(stakes), np.int64)))
+    stalks = weed_stalks(orchard.clutter, orchard.params.seed)
     panels, panel_look = _shed_panels(orchard.shed)
     return Primitives(
-        tubes=np.concatenate((trunks, posts)),
-        tube_look=np.column_stack((look, np.arange(1, len(look) + 1))).astype(np.int64),
-        beams=np.concatenate((_branches(orchard, trunks, rng), _wires(orchard))),
+        tubes=np.concatenate((trunks, posts, stakes)),
+        tube_look=np.column_stack((look, owners)).astype(np.int64),
+        beams=np.concatenate((_branches(orchard, trunks, rng), _wires(orchard), stalks)),
         cards=cards, panels=panels, panel_look=panel_look,
     )  # fmt: skip
 
@@ -86,7 +95,11 @@ def _arms(orchard: Orchard) -> tuple[tuple[float, float, float], ...]:
     if orchard.trellis is Trellis.ROOF:
         out = orchard.canopy_half_width_m * 0.7
         return (0.3, out, 0.18), (-0.3, -out, 0.18), (0.6, 0.3, 0.15), (-0.6, -0.3, 0.15)
-    return (0.1, 0.05, 1.6), (0.5, 0.4, 1.0), (-0.5, -0.4, 1.0), (0.4, -0.5, 0.8), (-0.4, 0.5, 0.8)
+    arms = (0.1, 0.05, 1.6), (0.5, 0.4, 1.0), (-0.5, -0.4, 1.0), (0.4, -0.5, 0.8), (-0.4, 0.5, 0.8)
+    if orchard.params.canopy is None:
+        return arms
+    wide, high = orchard.canopy_half_width_m / 0.8, (orchard.canopy_top_m - orchard.canopy_bottom_m) / 2.3
+    return tuple((wide * forward, wide * left, high * up) for forward, left, up in arms)
 
 
 def _directions(orchard: Orchard) -> Floats:

@@ -34,6 +34,7 @@ class Material(IntEnum):
     GRASS = 11
     SOIL = 12
     ROAD = 13
+    STALK = 14
 
 
 class Atlas(NamedTuple):
@@ -80,6 +81,7 @@ def _pictures(orchard: Orchard, rng: np.random.Generator) -> dict[Material, Texe
         Material.STEEL: surfaces.steel(rng),
         Material.WOOD: surfaces.wood(rng),
         Material.WIRE: np.full((4, 4, 4), (96, 97, 99, 255), dtype=np.uint8),
+        Material.STALK: np.full((4, 4, 4), (96, 110, 58, 255), dtype=np.uint8),
         Material.WALL: surfaces.wall(rng, rgb(168, 168, 162)),
         Material.ROOF: surfaces.wall(rng, rgb(156, 72, 54)),
         Material.GRASS: surfaces.grass(rng, greenness),

@@ -12,8 +12,7 @@ from navcore.errors import ContractError, InputError, NotFiniteError
 from navcore.maps.site_map import SiteMap
 from navcore.sim.contacts import ContactKind
 from navcore.sim.map_error import NO_MAP_ERROR
-from navcore.sim.world import World, WorldOutput, WorldParams
-from navcore.sim.world_faults import WorldFaults
+from navcore.sim.world import World, WorldFaults, WorldOutput, WorldParams
 from navcore.vehicle import PAPER_A
 
 TICK_NS = 20_000_000
