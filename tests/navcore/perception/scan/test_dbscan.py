@@ -40,7 +40,7 @@ def turn(distances: Floats, start: float, span: float) -> Floats:
 @given(places, st.sampled_from([0.1003, 0.2501, 0.47]), st.integers(1, 6))
 @settings(max_examples=200, deadline=None)
 def test_points_in_any_order_make_scikit_learns_clusters(cells: Ints, eps: float, min_points: int) -> None:
-    points = cells * 0.05
+    points = (cells * 0.05).astype(np.float64)
     assert dbscan(points, eps=eps, min_points=min_points).tolist() == scikit_learn(points, eps, min_points).tolist()
 
 
@@ -59,7 +59,7 @@ def test_a_scan_makes_scikit_learns_clusters(distances: Floats, start: float, tu
 @given(places, st.tuples(st.floats(-2.0, 2.0), st.floats(-2.0, 2.0)))
 @settings(max_examples=100, deadline=None)
 def test_a_centre_never_changes_the_clusters(cells: Ints, centre: tuple[float, float]) -> None:
-    points = cells * 0.05
+    points = (cells * 0.05).astype(np.float64)
     with_centre = dbscan(points, eps=0.1003, min_points=3, centre=centre)
     assert with_centre.tolist() == dbscan(points, eps=0.1003, min_points=3).tolist()
 
@@ -111,6 +111,6 @@ def test_points_that_are_no_numbers_are_refused(bad: float) -> None:
 def test_values_outside_the_papers_ranges_are_refused() -> None:
     for bad in ({"eps": 0.05}, {"eps": 0.6}, {"eps": math.nan}, {"min_points": 2}, {"min_points": 6}):
         with pytest.raises(ConfigError, match=r"DBSCAN's"):
-            DbscanParams(**bad)  # type: ignore[arg-type]
+            DbscanParams(**bad)
     with pytest.raises(ConfigError, match="needs eps"):
         dbscan(np.zeros((1, 2)), eps=0.0, min_points=3)
