@@ -1,0 +1,1 @@
+"""Paper B: rows from camera and 2D LiDAR as published, and its rivals."""
