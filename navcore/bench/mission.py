@@ -52,12 +52,13 @@ def _driven(cases: list[MissionCase], processes: int) -> Iterator[MissionResult]
         yield from map(run_case, cases)
         return
     # Fresh interpreters: forked ones would share the state of compiled code and thread pools.
-    with _single_threaded(), multiprocessing.get_context("spawn").Pool(processes, maxtasksperchild=8) as pool:
+    with single_threaded(), multiprocessing.get_context("spawn").Pool(processes, maxtasksperchild=8) as pool:
         yield from pool.imap_unordered(run_case, cases)
 
 
 @contextmanager
-def _single_threaded() -> Iterator[None]:
+def single_threaded() -> Iterator[None]:
+    """Processes that are started inside reckon in one thread each."""
     before = {name: os.environ.get(name) for name in _ONE_THREAD}
     os.environ.update(dict.fromkeys(_ONE_THREAD, "1"))
     try:

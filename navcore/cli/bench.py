@@ -128,6 +128,39 @@ def bench_rows(
     typer.echo(_report(figures, *made) if as_json else _lines(figures, *made))
 
 
+@bench_app.command("fusion")
+def bench_fusion(
+    quick: Annotated[bool, typer.Option("--quick", help="Two drives a chain, boxes from the truth.")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="A JSON list, one row a figure.")] = False,
+    resume: Annotated[
+        Path | None, typer.Option(metavar="FOLDER", help="Keep the drives here, and go on with what is here.")
+    ] = None,
+    processes: Annotated[int, typer.Option(min=1, max=64, help="Drives side by side.")] = 2,
+) -> None:
+    """Camera and 2D LiDAR as in paper B, published and ours: clusters, line fits, trees, drives in its segments."""
+    import tempfile
+    from dataclasses import replace
+
+    from navcore.bench.cluster_bench import cluster_figures
+    from navcore.bench.fusion import QUICK_DRIVES, FusionBenchParams, drive_all
+    from navcore.bench.fusion_figures import drive_figures
+    from navcore.bench.line_fit_bench import line_fit_figures
+    from navcore.bench.mission_cases import EyeKind
+    from navcore.bench.provenance import commit, machine
+    from navcore.bench.segment_cases import segment_cases
+
+    params = FusionBenchParams(processes=processes)
+    if quick:
+        params = replace(params, drives=replace(QUICK_DRIVES, eye=EyeKind.TRUTH), scans=60, fits=200)
+    folder = resume or Path(tempfile.mkdtemp(prefix="rowpilot-fusion-"))
+    typer.echo(f"Drives are kept in {folder}", err=True)
+    parts = (*cluster_figures(rounds=params.scans), *line_fit_figures(rounds=params.fits))
+    cases = segment_cases(params.drives)
+    drives = drive_all(cases, folder, params.processes, lambda line: typer.echo(line, err=True))
+    figures, made = (*parts, *drive_figures(drives)), (commit(), machine())
+    typer.echo(_report(figures, *made) if as_json else _lines(figures, *made))
+
+
 def _measure_loop(params: LoopParams, as_json: bool) -> None:
     import tempfile
     from contextlib import closing

@@ -1,0 +1,142 @@
+"""Drives one of paper B's segments in lockstep and measures how far from its middle, every metre."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from navcore.bench.segment_cases import Chain, SegmentCase
+from navcore.bench.segment_eyes import ChainEye, OracleEye, OurEye, Pictures, new_chain
+from navcore.bench.tree_matches import TreeMatches, WatchedEye
+from navcore.config import RobotConfig
+from navcore.errors import MissionError
+from navcore.geometry.lidar_mount import robot_lidar
+from navcore.geometry.se2 import SE2
+from navcore.maps.mission import RowExit
+from navcore.messages import Request, RequestKind, RunState, SimTruth
+from navcore.planning.mission_planner import plan_mission
+from navcore.planning.row_mission import mission_for_row
+from navcore.runtime.lockstep import Eye, Lockstep, Tick
+from navcore.sim.lidar2d import Lidar2dParams
+from navcore.sim.world import World, WorldParams
+from navcore.sim.young_orchard import LENGTH_M, YoungSegment
+
+Floats = NDArray[np.float64]
+
+STATIONS = np.arange(1.0, LENGTH_M)  # m along the row; at its very ends the robot still turns in, or out
+VEHICLE = "paper_b"
+_START_NS = 1_000_000_000
+_POSE_S, _SETTLE_S, _DRIVE_S = 30.0, 2.0, 240.0
+_RESTING = (RunState.FINISHED, RunState.STOPPED)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SegmentResult:
+    """One driven segment.
+
+    Attributes:
+        off: lateral deviation from the middle at each of `STATIONS`, m, + left; None where it never got to.
+        why: what the operator was told where it did not get through.
+        ours, published: trees that the camera knows and the LiDAR placed, on the same pictures and scans; of
+            `Chain.OURS` only.
+    """
+
+    case: SegmentCase
+    off: tuple[float | None, ...]
+    why: str
+    ours: TreeMatches | None = None
+    published: TreeMatches | None = None
+
+
+def drive_segment(case: SegmentCase) -> SegmentResult:
+    """From the headland through the segment to its far end."""
+    young, config = case.young(), replace(RobotConfig(), vehicle=VEHICLE)
+    params = WorldParams(
+        seed=young.seed, orchard=young.orchard, terrain=young.terrain, lidar2d=Lidar2dParams()
+    )  # fmt: skip
+    world = World(young.site, config.vehicle_params(), params, start_ns=_START_NS)
+    eye = _eye(case, world, config)
+    lockstep = Lockstep(world, config.new_navigator(young.site.datum), eye)
+    poses: list[tuple[float, float]] = []
+    lockstep.listeners.append(lambda tick: poses.append((tick.truth.x, tick.truth.y)))
+    why = _drive(lockstep, case, young, config)
+    off = _off_the_middle(np.array(poses), young, world)
+    told = tuple(None if math.isnan(e) else float(e) for e in off)
+    if isinstance(eye, WatchedEye):
+        return SegmentResult(case=case, off=told, why=why, ours=eye.ours, published=eye.published)
+    return SegmentResult(case=case, off=told, why=why)
+
+
+def _eye(case: SegmentCase, world: World, config: RobotConfig) -> Eye:
+    mount, seed = robot_lidar(), case.young().seed
+    if case.chain is Chain.ORACLE:
+        return OracleEye(world.orchard, config, mount)
+    pictures = None if case.chain is Chain.LIDAR else Pictures(world.orchard, case, seed)
+    if case.chain is Chain.OURS and pictures is not None:
+        published = ChainEye(new_chain(Chain.PUBLISHED, mount), None, mount)
+        return WatchedEye(OurEye(pictures, config, mount), published, pictures, world.orchard, mount)
+    return ChainEye(new_chain(case.chain, mount), pictures, mount)
+
+
+def _drive(lockstep: Lockstep, case: SegmentCase, young: YoungSegment, config: RobotConfig) -> str:
+    """Why it did not get through, empty if it did."""
+    mission = mission_for_row(young.site, young.row, RowExit.REVERSE)
+    mission = replace(mission, visits=tuple(replace(visit, speed=case.speed) for visit in mission.visits))
+    try:
+        plan = plan_mission(young.site, mission, config.vehicle_params())
+    except MissionError as error:
+        return str(error)
+    lockstep.run(_POSE_S, lambda tick: tick.decision.status.pose is not None)
+    lockstep.run(_SETTLE_S)
+    lockstep.ask(Request(kind=RequestKind.START, request_id="start", run_id="bench", plan=plan))
+    reply = lockstep.tick().decision.replies[0]
+    if not reply.accepted:
+        return " ".join(reply.reasons)
+    row = RowFrame(young, lockstep.world)
+    last = lockstep.run(_DRIVE_S, lambda tick: row.along(tick.truth) >= STATIONS[-1] + 0.2 or _rests(tick))
+    if row.along(last.truth) >= STATIONS[-1]:
+        return ""
+    return "; ".join(e.text for e in last.decision.status.events) or "not through in time"
+
+
+def _rests(tick: Tick) -> bool:
+    return tick.decision.status.state in _RESTING
+
+
+class RowFrame:
+    """The true segment: (along it from its first headland, left of its straight), m."""
+
+    def __init__(self, young: YoungSegment, world: World) -> None:
+        row = world.site.row(young.row)
+        yaw = math.atan2(row.end[1] - row.start[1], row.end[0] - row.start[0])
+        self._T_row_map = SE2(row.start[0], row.start[1], yaw).inverse()
+        drawn = young.site.row(young.row)
+        drawn_yaw = math.atan2(drawn.end[1] - drawn.start[1], drawn.end[0] - drawn.start[0])
+        T_row_drawn = SE2(drawn.start[0], drawn.start[1], drawn_yaw).inverse()
+        self._middle = T_row_drawn.apply(np.array(young.centre_line))
+
+    def along(self, truth: SimTruth) -> float:
+        """Metres along the segment."""
+        return self._T_row_map.apply_point(truth.x, truth.y)[0]
+
+    def off_the_middle(self, poses: Floats) -> Floats:
+        """Left of the middle, m, and how far along, of true places (N, 2): (N, 2)."""
+        there = self._T_row_map.apply(poses)
+        middle = np.interp(there[:, 0], self._middle[:, 0], self._middle[:, 1])
+        return np.column_stack((there[:, 0], there[:, 1] - middle))
+
+
+def _off_the_middle(poses: Floats, young: YoungSegment, world: World) -> Floats:
+    """At each station when it was first passed, NaN where it was not."""
+    along, off = RowFrame(young, world).off_the_middle(poses).T
+    found = np.full(len(STATIONS), np.nan)
+    for i, station in enumerate(STATIONS):
+        passed = np.flatnonzero((along[:-1] < station) & (along[1:] >= station) & (np.abs(off[1:]) < 1.5))
+        if len(passed):
+            k = passed[0]
+            share = (station - along[k]) / (along[k + 1] - along[k])
+            found[i] = off[k] + share * (off[k + 1] - off[k])
+    return found
