@@ -22,7 +22,7 @@ TEXELS = 8
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Board:
-    """A board; paper B's by default. Its frame: origin in the pattern's middle, x right, y down, z away from a viewer.
+    """A board; paper B's by default. Its frame: origin in the middle, x right, y down, z away from a viewer.
 
     Attributes:
         columns, rows: inner corners, where two black squares meet; 3 to 20.

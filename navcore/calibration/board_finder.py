@@ -25,7 +25,7 @@ class BoardFinderParams:
     """What counts as seen. Ours; set on rendered boards.
 
     Attributes:
-        widest_edge_px: edges from black to white wider than this are blurred; 2 to 20. Corners then lie some 0.1 px off.
+        widest_edge_px: edges from black to white wider than this are blurred; 2 to 20.
         least_corners: of a ChArUco board; 6 or more.
         tries_hard: look a second time, with OpenCV's slower sector detector, and find out why there is no board. Off
             for a live picture: 50 instead of 500 ms where there is none.
@@ -64,7 +64,8 @@ class BoardFinder:
         size = (self.board.columns, self.board.rows)
         flags = cv2.CALIB_CB_ADAPTIVE_THRESH | cv2.CALIB_CB_NORMALIZE_IMAGE
         hard = self._params.tries_hard
-        found, corners = cv2.findChessboardCorners(grey, size, flags=flags if hard else flags | cv2.CALIB_CB_FAST_CHECK)
+        flags |= 0 if hard else cv2.CALIB_CB_FAST_CHECK
+        found, corners = cv2.findChessboardCorners(grey, size, flags=flags)
         if not found and hard:
             found, corners = cv2.findChessboardCornersSB(grey, size, flags=cv2.CALIB_CB_NORMALIZE_IMAGE)
         if not found:
@@ -85,8 +86,8 @@ class BoardFinder:
             return "No marker of a ChArUco board is seen. Look at the light, the focus, and whether it is one (4X4)."
         if corners == 0:
             return (
-                f"{markers} markers are seen, but not where a board of {self.board.columns} x {self.board.rows} inner "
-                "corners has them. Give the board's size as printed."
+                f"{markers} markers are seen, but not where a board of {self.board.columns} x {self.board.rows} "
+                "inner corners has them. Give the board's size as printed."
             )
         return f"Only {corners} corners of the board are seen. Show more of it."
 

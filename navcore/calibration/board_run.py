@@ -8,12 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from navcore.calibration.board import Board
 from navcore.errors import InputError, NotFiniteError
 from navcore.geometry.angles import wrap_all
 
 Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -45,7 +43,8 @@ class PlainScan:
     """Rays in the order of their angles, those without an end left out; several turns of a robot that stands are one.
 
     Attributes:
-        angles: (N,) rad in (-pi, pi], ascending. distances: (N,) m, > 0. step: usual angle between rays, rad.
+        angles: (N,) rad in (-pi, pi], ascending. distances: (N,) m, > 0.
+        step: angle between rays, rad, as an edge meets it.
     """
 
     angles: Floats
@@ -81,14 +80,16 @@ def plain_scan(angles: Floats, distances: Floats) -> PlainScan:
         raise InputError("The scan has fewer than 10 rays that hit something. Look at the LiDAR.")
     turned = wrap_all(angles[hit])
     order = np.argsort(turned, kind="stable")
-    steps = np.diff(turned[order])
-    step = float(np.median(steps[steps > 1e-6])) if np.any(steps > 1e-6) else math.radians(1.0)
-    return PlainScan(angles=turned[order], distances=distances[hit][order], step=step)
+    return PlainScan(angles=turned[order], distances=distances[hit][order], step=_step(np.diff(turned[order])))
 
 
-def find_board(
-    scan: PlainScan, outline: Floats, params: BoardRunParams, *, rough: bool
-) -> BoardRun | str:
+def _step(steps: Floats) -> float:
+    """The mean gap in which an edge falls: wider gaps hold more edges. Turns need not be evenly interleaved."""
+    usual = steps[steps < math.radians(3.0)]
+    return float(np.sum(usual**2) / np.sum(usual)) if np.sum(usual) > 0.0 else math.radians(1.0)
+
+
+def find_board(scan: PlainScan, outline: Floats, params: BoardRunParams, *, rough: bool) -> BoardRun | str:
     """The board whose plate's corners (4, 3) are expected there in the LiDAR's frame, m, or why it is not seen."""
     expected = plane_cut(outline)
     if expected is None:
@@ -181,6 +182,6 @@ def _no_run(scan: PlainScan, middle: Floats, params: BoardRunParams) -> str:
     bearing = math.degrees(math.atan2(middle[1], middle[0]))
     return (
         f"the scan has no straight run of the board's length within {100 * params.away:.0f} cm of where the camera "
-        f"sees the board ({np.hypot(*middle):.2f} m away at {bearing:.0f} deg). Hold the board into the LiDAR's plane, "
-        "free of hands and other things"
+        f"sees the board ({np.hypot(*middle):.2f} m away at {bearing:.0f} deg). Hold the board into the LiDAR's "
+        "plane, free of hands and other things"
     )

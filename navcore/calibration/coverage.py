@@ -30,7 +30,7 @@ class CoverageParams:
 
     Attributes:
         corners: in each of 3 x 4 parts of the picture; >= 1.
-        tilt_deg: a board counts as tilted from here; the tilt is that of the board's normal to the ray to it. 5 to 45.
+        tilt_deg: a board counts as tilted from here, its normal against the ray to it; 5 to 45.
         tilted: boards tilted to each of the four sides; >= 1.
         near, far: width or height of the board, whichever takes more of the picture: at least, and at most, share.
         poses: in all.
@@ -67,7 +67,7 @@ def missing_poses(sightings: Sequence[BoardSighting], size: tuple[int, int], par
     asked = (
         *_part_wishes(grid, params), *_tilt_wishes(tilts, params),
         (any(s >= params.near for s in sizes), "Hold the board nearer, so that it fills half of the picture."),
-        (any(s <= params.far for s in sizes), "Hold the board further away, so that it fills a third of the picture."),
+        (any(s <= params.far for s in sizes), "Hold the board further away, so that it fills a third of it."),
         (len(sightings) - alike(sightings) >= params.poses, f"Take {params.poses} pictures, each of another pose."),
     )  # fmt: skip
     missing = tuple(wish for is_there, wish in asked if not is_there)

@@ -115,7 +115,7 @@ def _check(sightings: Sequence[BoardSighting], params: IntrinsicsParams) -> None
 def _without_outliers(
     sightings: Sequence[BoardSighting], params: IntrinsicsParams
 ) -> tuple[IntrinsicsFit, list[BoardSighting], list[tuple[str, str]]]:
-    """The fit, what it rests on, and what was thrown out, the worst first: one wrong picture spoils the others' errors."""
+    """The fit, what it rests on, and what was thrown out, the worst first: a wrong picture spoils others' errors."""
     kept, thrown_out = list(sightings), list[tuple[str, str]]()
     while True:
         fit = fit_intrinsics(kept)

@@ -1,7 +1,7 @@
 """How a lens bends straight rays: Brown and Conrady's model.
 
-Brown, "Close-range camera calibration", Photogrammetric Engineering 37 (1971), as OpenCV writes it: for a straight ray
-(x, y) with r^2 = x^2 + y^2 the bent one is x (1 + k1 r^2 + k2 r^4 + k3 r^6) + 2 p1 x y + p2 (r^2 + 2 x^2), and so y.
+Brown, "Close-range camera calibration", Photogrammetric Engineering 37 (1971), as OpenCV writes it: for a straight
+ray (x, y) with r^2 = x^2 + y^2 the bent one is x (1 + k1 r^2 + k2 r^4 + k3 r^6) + 2 p1 x y + p2 (r^2 + 2 x^2), so y.
 """
 
 from __future__ import annotations

@@ -12,6 +12,7 @@ from navcore.calibration.board import Board
 from navcore.errors import InputError
 from navcore.geometry.intrinsics import Intrinsics
 from navcore.geometry.lens import Lens
+from navcore.geometry.pinhole import R_BASE_OPTICAL, rotation_from_rpy
 
 Floats = NDArray[np.float64]
 TRIES = 2000
@@ -52,6 +53,21 @@ class BoardPoses:
             if self.seen_whole(T_camera_board):
                 return T_camera_board
         raise InputError("The board does not fit into the picture from there. Hold it further away.")
+
+    def draw_before_lidar(self, rng: np.random.Generator, T_camera_lidar: Floats, height: float) -> Floats:
+        """One T_camera_board (4, 4) whose middle is within `height` (m) of the LiDAR's plane, `nearest` to `furthest`
+        away from the LiDAR and within 30 deg of its x axis. Raises InputError if the camera never sees it whole.
+        """
+        p = self._params
+        for _ in range(TRIES):
+            bearing, away = math.radians(30.0) * rng.uniform(-1.0, 1.0), rng.uniform(p.nearest, p.furthest)
+            T_lidar_board = np.eye(4)
+            R_facing = rotation_from_rpy(0.0, 0.0, bearing) @ R_BASE_OPTICAL
+            T_lidar_board[:3, :3] = R_facing @ board_rotation(rng, p.tilt_deg, p.turn_deg)
+            T_lidar_board[:3, 3] = away * math.cos(bearing), away * math.sin(bearing), height * rng.uniform(-1.0, 1.0)
+            if self.seen_whole(T_camera_lidar @ T_lidar_board):
+                return np.asarray(T_camera_lidar @ T_lidar_board)
+        raise InputError("The camera does not see a board in the LiDAR's plane. Look at their mounts.")
 
     def seen_whole(self, T_camera_board: Floats) -> bool:
         """Whether the pattern lies within the picture."""

@@ -154,6 +154,8 @@ def test_the_tilt_that_is_there_is_not_asked_for(about_width_deg: float, about_h
 
 
 def test_an_empty_part_of_the_picture_is_named() -> None:
-    wishes = missing_poses([corners_seen(facing(0.4, x=-0.1), np.random.default_rng(1))], CAMERA.size, CoverageParams()).missing
+    wishes = missing_poses(
+        [corners_seen(facing(0.4, x=-0.1), np.random.default_rng(1))], CAMERA.size, CoverageParams()
+    ).missing
     assert "Show the board in the upper left of the picture." in wishes
     assert "Show the board in the middle left middle of the picture." not in wishes
