@@ -70,7 +70,8 @@ class BoardFinder:
             found, corners = cv2.findChessboardCornersSB(grey, size, flags=cv2.CALIB_CB_NORMALIZE_IMAGE)
         if not found:
             return why_missing(grey, self.board, look=hard)
-        pixels = _refined(grey, _in_order(grey, corners.reshape(self.board.rows, self.board.columns, 2)))
+        grid = np.asarray(corners, dtype=np.float64).reshape(self.board.rows, self.board.columns, 2)
+        pixels = _refined(grey, _in_order(grey, grid))
         return np.arange(len(pixels)), pixels
 
     def _charuco_corners(self, grey: Image) -> tuple[Ints, Floats] | str:
@@ -94,7 +95,8 @@ class BoardFinder:
     def _edge_px(self, grey: Image, pixels: Floats) -> float:
         size = (self.board.columns, self.board.rows)
         told, _ = cv2.estimateChessboardSharpness(grey, size, pixels.astype(np.float32).reshape(-1, 1, 2))
-        return float(told[0]) if told[0] > 0.0 else float("nan")
+        width = float(np.ravel(told)[0])
+        return width if width > 0.0 else float("nan")
 
 
 def _wrong_picture(picture: Image) -> str | None:

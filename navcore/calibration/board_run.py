@@ -53,7 +53,7 @@ class PlainScan:
 
     def points(self) -> Floats:
         """Where the rays end (N, 2) in the sensor's plane, m."""
-        return self.distances[:, None] * np.column_stack((np.cos(self.angles), np.sin(self.angles)))
+        return np.asarray(self.distances[:, None] * np.column_stack((np.cos(self.angles), np.sin(self.angles))))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

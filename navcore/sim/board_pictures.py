@@ -55,7 +55,7 @@ class BoardPictures:
         p, c = self._params, self._camera
         albedo = np.full((c.height_px, c.width_px), WALL)
         # From rays to the board's plane: the inverse homography of columns x, y and the origin.
-        H_board_ray = np.linalg.inv(T_camera_board[:3, [0, 1, 3]])
+        H_board_ray = np.asarray(np.linalg.inv(T_camera_board[:3, [0, 1, 3]]), dtype=np.float64)
         _paint(albedo, self._rays, H_board_ray, self._texture, np.array(self._board.plate), self._board.square)
         lit = cv2.GaussianBlur(albedo * self._light(rng), (0, 0), p.blur_px)
         grey = np.clip(np.rint(lit + p.noise * rng.standard_normal(lit.shape)), 0, 255).astype(np.uint8)

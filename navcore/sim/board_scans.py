@@ -58,7 +58,7 @@ class BoardScans:
         nearest = self._params.room / np.maximum(np.abs(rays[:, 0]), np.abs(rays[:, 1]))
         if self._params.person > 0.0:
             nearest = np.minimum(nearest, self._to_person(T_lidar_board, rays))
-        return np.minimum(nearest, self._to_board(T_lidar_board, rays))
+        return np.asarray(np.minimum(nearest, self._to_board(T_lidar_board, rays)))
 
     def _to_board(self, T: Floats, rays: Floats) -> Floats:
         normal = T[:3, 2]
