@@ -9,6 +9,7 @@
     │   ├── LogError                a run log or sensor log that cannot be read
     │   ├── SentenceError           a receiver's sentence that is no evidence; counted by its reader
     │   ├── ModelError              a detector file that cannot be used
+    │   ├── CalibrationError        pictures, scans or a file that no calibration comes of; carries every reason
     │   └── ConfigError             unknown key, value out of bounds
     ├── TransportError          a process of the station does not answer
     └── ContractError           our own code broke a promise; never caught to carry on
@@ -71,6 +72,18 @@ class SentenceError(InputError):
 
 class ModelError(InputError):
     """A detector file that cannot be used."""
+
+
+class CalibrationError(InputError):
+    """Pictures, scans or a file that no calibration comes of.
+
+    Attributes:
+        reasons: every reason, each a sentence that says what to do.
+    """
+
+    def __init__(self, reasons: Iterable[str]) -> None:
+        self.reasons = tuple(reasons)
+        super().__init__(" ".join(self.reasons))
 
 
 class ConfigError(InputError):

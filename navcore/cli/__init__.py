@@ -6,12 +6,14 @@ import typer
 
 from navcore.cli import dataset, decode_rplidar, evaluate, export, replay, report, run, score, see, train
 from navcore.cli.bench import bench_app
+from navcore.cli.calibrate import calibrate_app
 from navcore.cli.decode import decode_app
 
 app = typer.Typer(
     name="rowpilot", help="Onboard operator station for orchard and vineyard robots.", no_args_is_help=True
 )
 app.add_typer(bench_app, name="bench")
+app.add_typer(calibrate_app, name="calibrate")
 decode_rplidar.register(decode_app)
 app.add_typer(decode_app, name="decode")
 dataset.register(app)

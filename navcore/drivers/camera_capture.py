@@ -10,6 +10,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from navcore.geometry.intrinsics import intrinsics_of
+from navcore.geometry.lens import Lens
 from navcore.geometry.pinhole import PinholeCamera, robot_camera
 
 Image = NDArray[np.uint8]
@@ -37,6 +39,12 @@ class CameraParams:
     mount: PinholeCamera = field(default_factory=robot_camera)
     distortion: tuple[float, float, float, float, float] = (0.0, 0.0, 0.0, 0.0, 0.0)
     latency_ms: float = 40.0
+
+    @property
+    def lens(self) -> Lens:
+        """What bends its pictures. Raises NotFiniteError for a coefficient that is NaN."""
+        k1, k2, p1, p2, k3 = self.distortion
+        return Lens(k1=k1, k2=k2, p1=p1, p2=p2, k3=k3)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -131,13 +139,12 @@ def open_camera(params: CameraParams) -> cv2.VideoCapture:
 
 def rectification(params: CameraParams) -> Callable[[Image], Image]:
     """Removes the lens distortion of a picture; hands it on as it is where there is none."""
-    if not any(params.distortion):
+    lens = params.lens
+    if not lens.bends:
         return lambda image: image
-    m = params.mount
-    K = np.array([[m.fx, 0.0, m.cx], [0.0, m.fy, m.cy], [0.0, 0.0, 1.0]])
-    size = (m.width_px, m.height_px)
+    camera = intrinsics_of(params.mount)
     map_u, map_v = cv2.initUndistortRectifyMap(
-        K, np.array(params.distortion), np.eye(3), K, size, cv2.CV_16SC2
+        camera.K, np.array(lens.coefficients), np.eye(3), camera.K, camera.size, cv2.CV_16SC2
     )  # fmt: skip
     return lambda image: np.asarray(cv2.remap(image, map_u, map_v, cv2.INTER_LINEAR), dtype=np.uint8)
 

@@ -26,6 +26,12 @@ def rotation_from_rpy(roll: float, pitch: float, yaw: float) -> Floats:
     )
 
 
+def rpy_from_rotation(R: Floats) -> tuple[float, float, float]:
+    """Roll, pitch and yaw, rad, of a rotation (3, 3): the inverse of `rotation_from_rpy`, pitch in [-pi/2, pi/2]."""
+    pitch = math.asin(min(1.0, max(-1.0, -float(R[2, 0]))))
+    return math.atan2(R[2, 1], R[2, 2]), pitch, math.atan2(R[1, 0], R[0, 0])
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PinholeCamera:
     """Intrinsics in pixels and the mount in `base_link` (whose origin lies on the ground under the robot's centre).
