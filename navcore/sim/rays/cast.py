@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 
-from navcore.sim.rays.grid import CELL_M
+from navcore.sim.rays.grid import CELL_M, LAYER_M
 from navcore.sim.rays.scene import RayScene
 from navcore.sim.rays.shapes import BEAM, CARD, MISS, TUBE, meet_beam, meet_card, meet_panel, meet_tube
 from navcore.sim.render.compiled import compiled, inlined
@@ -27,9 +27,9 @@ def cast(
     grid, best, met = scene.grid, reach, NOTHING
     if dz < -1e-9 and -oz / dz < best:
         best, met = -oz / dz, GROUND
-    column, step_x, next_x, along_x, end_x = walk(ox - grid.x, dx, grid.columns)
-    row, step_y, next_y, along_y, end_y = walk(oy - grid.y, dy, grid.rows)
-    layer, step_z, next_z, along_z, end_z = walk(oz - grid.z, dz, grid.layers)
+    column, step_x, next_x, along_x, end_x = walk(ox - grid.x, dx, CELL_M, grid.columns)
+    row, step_y, next_y, along_y, end_y = walk(oy - grid.y, dy, CELL_M, grid.rows)
+    layer, step_z, next_z, along_z, end_z = walk(oz - grid.z, dz, LAYER_M, grid.layers)
     t, end = 0.0, min(end_x, min(end_y, end_z))
     while t < min(best, end):
         if 0 <= column < grid.columns and 0 <= row < grid.rows and 0 <= layer < grid.layers:
@@ -50,16 +50,18 @@ def cast(
 
 
 @inlined
-def walk(start: float, d: float, cells: int) -> tuple[int, int, float, float, float]:
-    """Along one axis, from `start` m within the grid: first cell, step, distances along the ray to the next cell and
-    between cells, and where the grid is left for good."""
-    cell = math.floor(start / CELL_M)
+def walk(start: float, d: float, side: float, cells: int) -> tuple[int, int, float, float, float]:
+    """Along one axis, from `start` m within a grid of cells `side` m wide.
+
+    First cell, step, distances along the ray to the next cell and between cells, and where the grid is left for good.
+    """
+    cell = math.floor(start / side)
     if abs(d) < 1e-12:
         return cell, 0, _NEVER, _NEVER, _NEVER
     step = 1 if d > 0.0 else -1
     ahead = cell + 1 if d > 0.0 else cell
-    last = cells * CELL_M if d > 0.0 else 0.0
-    return cell, step, (ahead * CELL_M - start) / d, CELL_M / abs(d), (last - start) / d
+    last = cells * side if d > 0.0 else 0.0
+    return cell, step, (ahead * side - start) / d, side / abs(d), (last - start) / d
 
 
 @inlined

@@ -102,7 +102,8 @@ def leaf_there(k: int, a: float, b: float, share: float) -> bool:
     h &= 0xFFFFFFFF
     h = ((h ^ (h >> 16)) * 0x45D9F3B) & 0xFFFFFFFF
     h = ((h ^ (h >> 16)) * 0x45D9F3B) & 0xFFFFFFFF
-    return bool(((h ^ (h >> 16)) & 0xFFFF) / 65536.0 < there)
+    drawn: float = ((h ^ (h >> 16)) & 0xFFFF) / 65536.0
+    return drawn < there
 
 
 @inlined
@@ -131,17 +132,18 @@ def meet_panel(
 @inlined
 def squareness(kind: int, s: Floats, k: int, x: float, y: float, z: float, dx: float, dy: float, dz: float) -> float:
     """Cosine between the ray and the normal of shape k where it was met in (x, y, z), 0 to 1."""
+    nx, ny, nz = 0.0, 0.0, 0.0
     if kind == CARD:
-        return float(abs(dx * s[k, 9] + dy * s[k, 10] + dz * s[k, 11]))
-    if kind == PANEL:
-        return float(abs(dx * s[k, 12] + dy * s[k, 13] + dz * s[k, 14]))
-    if kind == TUBE:
+        nx, ny, nz = s[k, 9], s[k, 10], s[k, 11]
+    elif kind == PANEL:
+        nx, ny, nz = s[k, 12], s[k, 13], s[k, 14]
+    elif kind == TUBE:
         share = (z - s[k, 2]) / (s[k, 6] - s[k, 2])
         nx, ny = x - s[k, 0] - share * (s[k, 4] - s[k, 0]), y - s[k, 1] - share * (s[k, 5] - s[k, 1])
-        nz = 0.0
     else:
         ex, ey, ez = s[k, 3] - s[k, 0], s[k, 4] - s[k, 1], s[k, 5] - s[k, 2]
         gx, gy, gz = x - s[k, 0], y - s[k, 1], z - s[k, 2]
         share = (gx * ex + gy * ey + gz * ez) / (ex * ex + ey * ey + ez * ez)
         nx, ny, nz = gx - share * ex, gy - share * ey, gz - share * ez
-    return float(min(abs(dx * nx + dy * ny + dz * nz) / max(math.sqrt(nx * nx + ny * ny + nz * nz), 1e-12), 1.0))
+    cosine: float = abs(dx * nx + dy * ny + dz * nz) / max(math.sqrt(nx * nx + ny * ny + nz * nz), 1e-12)
+    return min(cosine, 1.0)

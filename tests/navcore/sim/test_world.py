@@ -11,6 +11,7 @@ import pytest
 from navcore.errors import ContractError, InputError, NotFiniteError
 from navcore.maps.site_map import SiteMap
 from navcore.sim.contacts import ContactKind
+from navcore.sim.lidar2d import Lidar2dFaults, Lidar2dParams
 from navcore.sim.map_error import NO_MAP_ERROR
 from navcore.sim.world import World, WorldFaults, WorldOutput, WorldParams
 from navcore.vehicle import PAPER_A
@@ -151,3 +152,31 @@ def test_the_world_tells_its_true_rows_for_the_score(farm: SiteMap) -> None:
     robot = world(farm)
     assert [row.id for row in robot.farm().rows] == [row.id for row in farm.rows]
     assert robot.farm().rows[0].start == robot.site.rows[0].start != farm.rows[0].start
+
+
+def test_a_robot_with_a_lidar_hands_out_ten_turns_a_second_and_changes_nothing_else(farm: SiteMap) -> None:
+    without, with_lidar = run(world(farm), 2.0, 0.6), run(world(farm, lidar2d=Lidar2dParams()), 2.0, 0.6)
+    assert [replace(o, scans=(), scan_owners=()) for o in with_lidar] == without
+    assert not any(o.scans for o in without)
+    late = [o.truth.stamp_ns - s.stamp_ns for o in with_lidar for s in o.scans]
+    assert len(late) == 19
+    assert all(20_000_000 <= ns <= 40_000_000 for ns in late)
+    assert all(len(s.distances) == len(w) for o in with_lidar for s, w in zip(o.scans, o.scan_owners, strict=True))
+
+
+def test_the_lidars_turns_do_not_depend_on_the_step_of_the_caller(farm: SiteMap) -> None:
+    often, seldom = (world(farm, lidar2d=Lidar2dParams()) for _ in range(2))
+    fine = [often.advance(k * 5_000_000, 0.6, 0.1) for k in range(1, 101)]
+    coarse = [seldom.advance(k * 100_000_000, 0.6, 0.1) for k in range(1, 6)]
+    assert [s for o in fine for s in o.scans] == [s for o in coarse for s in o.scans] != []
+
+
+def test_a_broken_lidar_breaks_only_itself(farm: SiteMap) -> None:
+    robot = world(farm, lidar2d=Lidar2dParams())
+    run(robot, 0.5, 0.6)
+    robot.faults = WorldFaults(lidar=Lidar2dFaults(silent=True))
+    outputs = run(robot, 1.0, 0.6, start_s=0.5)
+    assert not [s for o in outputs[10:] for s in o.scans]
+    assert b"".join(o.nmea for o in outputs)
+    robot.faults = WorldFaults()
+    assert [s for o in run(robot, 0.5, 0.6, start_s=1.5) for s in o.scans]
