@@ -141,6 +141,8 @@ def bench_fusion(
     import tempfile
     from dataclasses import replace
 
+    from navcore.bench.calibration_bench import QUICK, CalibrationBenchParams
+    from navcore.bench.calibration_bench import run_bench as run_calibration
     from navcore.bench.cluster_bench import cluster_figures
     from navcore.bench.fusion import QUICK_DRIVES, FusionBenchParams, drive_all
     from navcore.bench.fusion_figures import drive_figures
@@ -149,14 +151,18 @@ def bench_fusion(
     from navcore.bench.provenance import commit, machine
     from navcore.bench.segment_cases import segment_cases
 
+    def tell(line: str) -> None:
+        typer.echo(line, err=True)
+
     params = FusionBenchParams(processes=processes)
     if quick:
         params = replace(params, drives=replace(QUICK_DRIVES, eye=EyeKind.TRUTH), scans=60, fits=200)
     folder = resume or Path(tempfile.mkdtemp(prefix="rowpilot-fusion-"))
-    typer.echo(f"Drives are kept in {folder}", err=True)
-    parts = (*cluster_figures(rounds=params.scans), *line_fit_figures(rounds=params.fits))
+    tell(f"Drives are kept in {folder}")
+    calibrated = run_calibration(QUICK if quick else CalibrationBenchParams(), tell)
+    parts = (*calibrated, *cluster_figures(rounds=params.scans), *line_fit_figures(rounds=params.fits))
     cases = segment_cases(params.drives)
-    drives = drive_all(cases, folder, params.processes, lambda line: typer.echo(line, err=True))
+    drives = drive_all(cases, folder, params.processes, tell)
     figures, made = (*parts, *drive_figures(drives)), (commit(), machine())
     typer.echo(_report(figures, *made) if as_json else _lines(figures, *made))
 
