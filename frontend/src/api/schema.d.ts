@@ -678,7 +678,7 @@ export interface components {
          *
          *     `centre` is the corridor's centre line on the ground, `bisector` the published one in the image. `left_band` and
          *     `right_band` are where the lines lie with 95 %, `region` is where corner points count. `plants` are scanned ones,
-         *     `scan` where the newest scan's rays end in the picture (u, v), and `ends` where they do in the driving frame (x, y), m.
+         *     `scan` is where the newest scan's rays end in the picture (u, v), `ends` where in the driving frame (x, y), m.
          *     `bearings` are how far to the left of straight ahead the objects are seen from the camera, rad, which stands
          *     `camera_x` m ahead of the driving frame's origin.
          */
