@@ -12,6 +12,7 @@ export function LiveCamera() {
   const store = useLiveStore();
   const fresh = useFresh("camera/view");
   const view = useTopic("camera/view");
+  const blind = view?.row.source === "lidar"; // then the last picture is an old one
   const [layers, setLayers] = useLayers();
   const feed = useCallback(
     (show: (picture: Picture) => void) => {
@@ -29,7 +30,8 @@ export function LiveCamera() {
       <div className={css.frame}>
         <CameraCanvas feed={feed} layers={layers} />
         {!fresh && <div className={css.note}>{view ? "The picture is older than one second" : "No picture: the camera is switched on in rows"}</div>}
-        {fresh && view && !view.row.missing.startsWith("the camera") && (
+        {fresh && blind && <div className={css.note}>The camera gives no picture: the robot goes by its LiDAR</div>}
+        {fresh && view && !blind && (
           <span className={css.corner}>
             {view.camera === "rear" ? "Rear" : "Front"} camera · {Math.round(view.latency_ms)} ms
           </span>
