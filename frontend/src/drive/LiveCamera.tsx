@@ -30,7 +30,7 @@ export function LiveCamera() {
       <div className={css.frame}>
         <CameraCanvas feed={feed} layers={layers} />
         {!fresh && <div className={css.note}>{view ? "The picture is older than one second" : "No picture: the camera is switched on in rows"}</div>}
-        {fresh && blind && <div className={css.note}>The camera gives no picture: the robot goes by its LiDAR</div>}
+        {fresh && blind && <div className={css.note}>{`The robot goes by its LiDAR: ${view.row.missing}`}</div>}
         {fresh && view && !blind && (
           <span className={css.corner}>
             {view.camera === "rear" ? "Rear" : "Front"} camera · {Math.round(view.latency_ms)} ms
