@@ -1,7 +1,8 @@
 """The line on which most trunks stand, exactly: ours in place of RANSAC's sampling.
 
 A strip that holds most points can be moved until two of them lie on its edges, without losing one. So every pair is
-tried, both on the left edge, both on the right, or one on each in two ways: nothing is left to chance.
+tried, both on the left edge, both on the right, or one on each in two ways: nothing is left to chance. The first two
+ways would do for the number; all four are the corners of the lines among which least squares then chooses.
 """
 
 from __future__ import annotations

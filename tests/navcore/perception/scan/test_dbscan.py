@@ -74,9 +74,12 @@ def test_a_scan_is_compared_along_its_own_order() -> None:
 
 def test_a_trunk_behind_the_last_ray_is_one() -> None:
     """The scan begins in the middle of a trunk."""
-    angles = np.radians([0.0, 0.5, 1.0, 359.0, 359.5])
+    angles = np.radians([0.0, 0.5, 120.0, 240.0, 359.0, 359.5])
     points = 2.0 * np.column_stack((np.cos(angles), np.sin(angles)))
-    assert dbscan(points, eps=EPS_M, min_points=3, centre=(0.0, 0.0)).tolist() == [0] * 5
+    turned, far, ordered = kernels.bearings(points, 0.0, 0.0, EPS_M)
+    assert ordered
+    assert len(kernels.scan_pairs(points, turned, far, EPS_M)) == 6
+    assert dbscan(points, eps=EPS_M, min_points=3, centre=(0.0, 0.0)).tolist() == [0, 0, -1, -1, 0, 0]
 
 
 def test_points_about_the_sensor_itself_are_clustered_too() -> None:
