@@ -172,7 +172,8 @@ def _mount_figure(
     return Figure(
         figure=f"extrinsics: error of the camera's {what} ({name}; baseline: PnP as published)", unit=unit,
         value=value, baseline=beside, n=len(ours), seed=seed, target=target,
-        ok=None if value is None else value <= target, table="Paper B, Section 2.2",
+        ok=None if value is None else value <= target,
+        table="Paper B, Section 2.2",
     )  # fmt: skip
 
 

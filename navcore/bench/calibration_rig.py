@@ -30,6 +30,8 @@ CORNER_PX = 0.05
 # Before the camera, and before the LiDAR. A person who follows the guidance turns the board too.
 NEAR = BoardPoseParams(nearest=0.18, furthest=0.8, tilt_deg=40.0, turn_deg=180.0, edge_px=4.0, spread=1.0)
 HELD = BoardPoseParams(nearest=0.5, furthest=1.3, tilt_deg=45.0, turn_deg=60.0)
+# Of the LiDAR at 10 Hz in the second for which a board is held still.
+TURNS = 10
 # Poses that a person thinks of before taking the one that the guidance asks for.
 IDEAS = 12
 
@@ -80,12 +82,12 @@ def true_mount(rng: np.random.Generator) -> Floats:
 def drawn_pairs(
     rng: np.random.Generator, T_lidar_camera: Floats, count: int, *, height: float, turn_deg: float = HELD.turn_deg
 ) -> list[BoardPair]:
-    """Boards that both see, their middles within `height` (m) of the LiDAR's plane; one turn of the LiDAR each."""
+    """Boards that both see, their middles within `height` (m) of the LiDAR's plane; a second of the LiDAR's turns each."""
     board, T_camera_lidar = Board(), np.asarray(np.linalg.inv(T_lidar_camera), dtype=np.float64)
     held = BoardPoseParams(
         nearest=HELD.nearest, furthest=HELD.furthest, tilt_deg=HELD.tilt_deg, turn_deg=turn_deg
     )  # fmt: skip
-    poses, lidar = BoardPoses(CAMERA, LENS, board, held), BoardScans(board, BoardScanParams())
+    poses, lidar = BoardPoses(CAMERA, LENS, board, held), BoardScans(board, BoardScanParams(turns=TURNS))
     pairs = []
     for k in range(count):
         T = poses.draw_before_lidar(rng, T_camera_lidar, height)

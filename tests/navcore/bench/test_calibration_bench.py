@@ -38,8 +38,10 @@ def test_a_refused_mount_is_counted_and_not_averaged_away() -> None:
 
 
 def test_planes_and_edges_beat_the_published_pairs() -> None:
-    score = mount_score(7, 25)
-    assert score.ours is not None
-    assert score.published is not None
-    assert score.ours[0] < 0.005 < score.published[0]  # m
-    assert score.ours[1] < score.published[1]  # deg
+    scores = [mount_score(seed, 25) for seed in (1, 2, 3, 4)]
+    ours = [s.ours for s in scores if s.ours is not None]
+    published = [s.published for s in scores if s.published is not None]
+    assert len(ours) == len(published) == 4
+    assert max(place for place, _ in ours) < 0.005  # m
+    for part in range(2):
+        assert sum(off[part] for off in ours) < sum(off[part] for off in published)
