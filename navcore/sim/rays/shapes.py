@@ -92,6 +92,7 @@ def leaf_there(k: int, a: float, b: float, share: float) -> bool:
     The drawn textures, measured: leaves fill `share` of a disc of 0.8 and a tenth of its rim; blades of a tuft fill
     four fifths at the root and thin out towards the tips.
     """
+    there: float = 0.0
     if share < 0.0:
         there = 0.85 * (1.0 - max(0.5 * (b + 1.0), 0.0) ** 2.5)
     else:

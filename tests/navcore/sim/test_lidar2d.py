@@ -235,7 +235,8 @@ def test_camera_and_lidar_see_one_trunk_in_one_direction() -> None:
     hits, c, s = ends(turn.scan), math.cos(truth.yaw), math.sin(truth.yaw)
     eye = np.array((truth.x + c * camera.x, truth.y + s * camera.x))
     matched = 0
-    for box in (o for o in picture.objects if o.kind is ObjectKind.TRUNK and not o.ignore and o.visible > 0.8):
+    whole = [o for o in picture.objects if o.x1 > 0.0 and o.x2 < camera.width_px and o.visible > 0.8]
+    for box in (o for o in whole if o.kind is ObjectKind.TRUNK and not o.ignore):
         trunk = int(np.abs(np.hypot(*(orchard.trunks[:, :2] - eye).T) - box.range).argmin())
         pixels = camera.project(hits[owners == trunk + 1])
         if len(pixels) >= 3:
