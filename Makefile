@@ -37,9 +37,10 @@ $(STAMP)/venv: pyproject.toml
 	$(BIN)/python -m pip install --quiet --editable '.[dev]'
 	@touch $@
 
-# The simulated camera's inner loops, so that no first picture waits for a compiler.
-$(STAMP)/compiled: $(STAMP)/venv $(wildcard navcore/sim/render/*.py)
+# Inner loops of the simulated camera and of perception, so that no first picture or scan waits for a compiler.
+$(STAMP)/compiled: $(STAMP)/venv $(wildcard navcore/sim/render/*.py navcore/perception/*kernels.py navcore/perception/*/*kernels.py)
 	$(BIN)/python -m navcore.sim.camera_warm_up
+	$(BIN)/python -m navcore.runtime.scan_warm_up
 	@touch $@
 
 # A machine without a recent Node gets it from PyPI, into the virtual environment.

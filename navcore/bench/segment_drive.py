@@ -21,6 +21,7 @@ from navcore.planning.mission_planner import plan_mission
 from navcore.planning.row_mission import mission_for_row
 from navcore.runtime.lockstep import Eye, Lockstep, Tick
 from navcore.sim.lidar2d import Lidar2dParams
+from navcore.sim.map_error import NO_MAP_ERROR
 from navcore.sim.world import World, WorldParams
 from navcore.sim.young_orchard import LENGTH_M, YoungSegment
 
@@ -55,7 +56,7 @@ def drive_segment(case: SegmentCase) -> SegmentResult:
     """From the headland through the segment to its far end."""
     young, config = case.young(), replace(RobotConfig(), vehicle=VEHICLE)
     params = WorldParams(
-        seed=young.seed, orchard=young.orchard, terrain=young.terrain, lidar2d=Lidar2dParams()
+        seed=young.seed, orchard=young.orchard, terrain=young.terrain, lidar2d=Lidar2dParams(), map_error=NO_MAP_ERROR
     )  # fmt: skip
     world = World(young.site, config.vehicle_params(), params, start_ns=_START_NS)
     eye = _eye(case, world, config)

@@ -132,7 +132,7 @@ class Lidar2d:
             half_beam=math.radians(p.beam_deg) / 2, edge_gap=p.edge_gap, missing=p.missing, strength=p.strength,
         )  # fmt: skip
         self._angles = -2.0 * math.pi * np.arange(n) / n
-        self._told_angles: tuple[float, ...] = tuple(self._angles.tolist())
+        self._told_angles: tuple[float, ...] = tuple(np.round(self._angles, 5).tolist())
         self._ray_ns = _NS / p.rays_per_s
         self._turned, self._mounted = WORKING.turned, self._R_base_lidar
         self._last_ns: int | None = None
@@ -202,7 +202,7 @@ class Lidar2d:
                 self._distances[:], owners[:] = 0.0, 0
             scan = LidarScan(
                 stamp_ns=stamp_ns, began_ns=self._began_ns, angles=self._told_angles,
-                distances=tuple(self._distances.tolist()),
+                distances=tuple(np.round(self._distances, 4).tolist()),
             )  # fmt: skip
             arrives_ns = stamp_ns + round(self._params.latency_s * _NS)
             self._sent.append((arrives_ns, SimScan(scan=scan, owners=tuple(owners.tolist()))))
