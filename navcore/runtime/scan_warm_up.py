@@ -1,4 +1,4 @@
-"""`python -m navcore.runtime.scan_warm_up`: compile what looks at scans and rows, for no first scan to wait for it."""
+"""`python -m navcore.runtime.scan_warm_up`: compile what looks at scans and rows, so no first scan waits for it."""
 
 from __future__ import annotations
 
