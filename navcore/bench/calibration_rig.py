@@ -82,7 +82,7 @@ def true_mount(rng: np.random.Generator) -> Floats:
 def drawn_pairs(
     rng: np.random.Generator, T_lidar_camera: Floats, count: int, *, height: float, turn_deg: float = HELD.turn_deg
 ) -> list[BoardPair]:
-    """Boards that both see, their middles within `height` (m) of the LiDAR's plane; a second of the LiDAR's turns each."""
+    """Boards that both see, their middles within `height` (m) of the LiDAR's plane; a second of its turns each."""
     board, T_camera_lidar = Board(), np.asarray(np.linalg.inv(T_lidar_camera), dtype=np.float64)
     held = BoardPoseParams(
         nearest=HELD.nearest, furthest=HELD.furthest, tilt_deg=HELD.tilt_deg, turn_deg=turn_deg
