@@ -65,12 +65,15 @@ class MountFit:
 def fit_mount(poses: Sequence[BoardOnScan], board: Board, start: Floats, params: BoardOnScanParams) -> MountFit:
     """Levenberg-Marquardt from the mount `start` (4, 4), robust against single rays."""
     scene = _Scene(poses, np.array(board.plate) / 2.0, params)
+
+    def residuals(step: Floats) -> Floats:
+        return scene.residuals(moved(start, step))
+
     found = least_squares(
-        lambda step: scene.residuals(moved(start, step)), np.zeros(6), loss="huber", f_scale=params.outlier,
-        x_scale=0.1, max_nfev=60,
+        residuals, np.zeros(6), loss="huber", f_scale=params.outlier, x_scale=0.1, max_nfev=60
     )  # fmt: skip
     T = moved(start, found.x)
-    covariance = _covariance(found.jac, 2.0 * float(found.cost))
+    covariance = _covariance(np.asarray(found.jac), 2.0 * float(found.cost))
     return MountFit(T_lidar_camera=T, covariance=covariance, errors=scene.errors(T))
 
 
