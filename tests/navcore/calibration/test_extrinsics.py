@@ -77,6 +77,14 @@ def test_stated_errors_are_those_of_many_calibrations() -> None:
     assert 0.5 < np.sqrt(np.mean(np.square(ratios))) < 1.5  # sigmas
 
 
+def test_the_plates_edges_tell_the_height(good: list[BoardPair]) -> None:
+    loose = replace(
+        PARAMS, residuals=replace(PARAMS.residuals, edge_std=10.0), worst_position=1.0, worst_angle_deg=90.0
+    )
+    with_edges, without = calibrated(good), calibrated(good, loose)
+    assert with_edges.position_std[2] < 0.7 * without.position_std[2]
+
+
 def test_the_published_pnp_finds_the_mount_where_nothing_is_noisy() -> None:
     rng = np.random.default_rng(1)
     points = rng.uniform((0.5, -0.4), (2.0, 0.4), (20, 2))
