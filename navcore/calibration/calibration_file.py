@@ -85,11 +85,17 @@ def load_version(path: Path, *, robot: str | None = None, size: tuple[int, int] 
     return version
 
 
+def id_of(made_utc: str) -> str:
+    """The time without its marks, to the second."""
+    return re.sub(r"[^0-9TZ]", "", made_utc.split(".")[0].split("+")[0])
+
+
 def new_id(made_utc: str, folder: Path) -> str:
-    """A file name without its ending that is not taken: the time, and a number where two are of one second."""
-    stem, n = re.sub(r"[^0-9TZ]", "", made_utc.split(".")[0].split("+")[0]), 1
-    while (folder / f"{(name := stem if n == 1 else f'{stem}-{n}')}.json").exists():
+    """One that no file of the folder has: the time, and a number where two are of one second."""
+    name, n = id_of(made_utc), 1
+    while (folder / f"{name}.json").exists():
         n += 1
+        name = f"{id_of(made_utc)}-{n}"
     return name
 
 

@@ -35,7 +35,7 @@ class IntrinsicsParams:
 
     least_poses: int = 8
     stands_out: float = 2.5
-    stands_out_px: float = 0.1
+    stands_out_px: float = 0.15
     most_thrown_out: float = 0.34
     worst_px: float = 1.0
     least_spread_deg: float = 5.0

@@ -143,12 +143,17 @@ def _numbers(text: str, option: str) -> tuple[float, float, float, float]:
 
 def _kept(version: CalibrationVersion, out: Path | None) -> str | None:
     """The file that it was written to."""
-    from navcore.calibration.calibration_file import save_version
+    from dataclasses import replace
+
+    from navcore.calibration.calibration_file import new_id, save_version
 
     if out is None:
         return None
-    path = out if out.suffix == ".json" else out / f"{version.id}.json"
-    save_version(version, path)
+    if out.suffix == ".json":
+        save_version(version, out)
+        return str(out)
+    version = replace(version, id=new_id(version.made_utc, out))
+    save_version(version, path := out / f"{version.id}.json")
     return str(path)
 
 

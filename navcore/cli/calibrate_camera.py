@@ -7,7 +7,7 @@ from typing import Any
 
 from navcore.calibration.board import Board
 from navcore.calibration.board_finder import BoardFinder, BoardFinderParams
-from navcore.calibration.calibration_file import CalibrationVersion, new_id
+from navcore.calibration.calibration_file import CalibrationVersion, id_of
 from navcore.calibration.coverage import CoverageParams, missing_poses
 from navcore.calibration.folder import see_folder
 from navcore.calibration.intrinsics import CameraIntrinsics, IntrinsicsParams, calibrate_intrinsics
@@ -49,7 +49,7 @@ def calibrated_camera(
 def _version(found: CameraIntrinsics, by: str, robot: str, camera: str) -> CalibrationVersion:
     now = utc_now()
     return CalibrationVersion(
-        id=new_id(now, Path()), made_utc=now, made_by=by, robot=robot, camera=camera, intrinsics=found.camera,
+        id=id_of(now), made_utc=now, made_by=by, robot=robot, camera=camera, intrinsics=found.camera,
         lens=found.lens, camera_std=found.std, rms_px=found.rms_px, left_out_px=found.left_out_px,
         pictures=len(found.sightings),
     )  # fmt: skip

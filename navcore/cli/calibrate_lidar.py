@@ -14,7 +14,7 @@ from navcore.calibration.board import Board
 from navcore.calibration.board_finder import BoardFinder, BoardFinderParams
 from navcore.calibration.board_on_scan import BoardOnScanParams
 from navcore.calibration.board_run import BoardRunParams
-from navcore.calibration.calibration_file import CalibrationVersion, new_id, numbers_of
+from navcore.calibration.calibration_file import CalibrationVersion, id_of, numbers_of
 from navcore.calibration.extrinsics import ExtrinsicsParams, LidarCamera, calibrate_extrinsics, rough_mount
 from navcore.calibration.folder import pair_folder
 from navcore.cli.calibrate_drawing import draw_lidar
@@ -77,7 +77,7 @@ def _version(found: LidarCamera, job: LidarJob) -> CalibrationVersion:
     now = utc_now()
     on_robot = None if job.lidar_at is None else numbers_of(_T_base_lidar(job.lidar_at) @ found.T_lidar_camera)
     return replace(
-        job.camera, id=new_id(now, Path()), made_utc=now, made_by=job.by or job.camera.made_by,
+        job.camera, id=id_of(now), made_utc=now, made_by=job.by or job.camera.made_by,
         T_lidar_camera=numbers_of(found.T_lidar_camera), T_base_camera=on_robot,
         mount_std=tuple(float(v) for v in np.sqrt(np.diag(found.covariance))), lidar_poses=len(found.poses),
     )  # fmt: skip

@@ -33,7 +33,7 @@ def test_a_refused_mount_is_counted_and_not_averaged_away() -> None:
     [refused] = [f for name, f in figures.items() if "refused" in name]
     assert (refused.value, refused.n) == (1.0, 2)
     [place] = [f for name, f in figures.items() if "place (RMS" in name]
-    assert place.value == pytest.approx(4.0)
+    assert place.value == pytest.approx(4.0)  # mm
     assert (place.n, place.ok) == (1, True)
     assert mount_figures([MountScore(None, None)], 1)[0].ok is None
 

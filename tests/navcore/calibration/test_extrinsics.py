@@ -28,14 +28,14 @@ from tests.navcore.calibration.boards import BOARD, CAMERA, LENS, Floats, corner
 # Paper B's mount, and a camera that looks 2 deg down and 3 deg to the left.
 TRUE = moved(rough_mount(0.075, 0.029, -0.096), np.array([0, 0, 0, 0.0, math.radians(2), math.radians(3)]))
 HELD = BoardPoseParams(nearest=0.5, furthest=1.2, tilt_deg=45.0, turn_deg=60.0)
+TRUE_INVERSE: Floats = np.asarray(np.linalg.inv(TRUE), dtype=np.float64)
 PARAMS = ExtrinsicsParams()
-INVERSE = np.asarray(np.linalg.inv(TRUE), dtype=np.float64)
 
 
 def pairs(n: int, seed: int, held: BoardPoseParams = HELD, scan: BoardScanParams | None = None) -> list[BoardPair]:
     rng = np.random.default_rng(seed)
     poses = BoardPoses(CAMERA, LENS, BOARD, held)
-    drawn = [poses.draw_before_lidar(rng, INVERSE, 0.05) for _ in range(n)]
+    drawn = [poses.draw_before_lidar(rng, TRUE_INVERSE, 0.05) for _ in range(n)]
     return [pair(T, rng, f"pose {k}", scan) for k, T in enumerate(drawn)]
 
 
@@ -77,10 +77,22 @@ def test_stated_errors_are_those_of_many_calibrations() -> None:
     assert 0.5 < np.sqrt(np.mean(np.square(ratios))) < 1.5  # sigmas
 
 
+def test_the_plates_edges_tell_the_height_where_boards_are_hardly_tilted() -> None:
+    any_std = replace(PARAMS, worst_position=1.0, worst_angle_deg=90.0)
+    no_edges = replace(any_std, residuals=replace(PARAMS.residuals, edge_std=10.0))
+    heights = []
+    for seed in range(1, 5):
+        seen = pairs(20, seed, replace(HELD, tilt_deg=20.0))
+        heights.append([off(calibrated(seen, params).T_lidar_camera)[2] for params in (any_std, no_edges)])
+    with_edges, without = np.sqrt(np.mean(np.square(heights), axis=0))
+    assert with_edges < 0.004  # m
+    assert with_edges < 0.7 * without
+
+
 def test_the_published_pnp_finds_the_mount_where_nothing_is_noisy() -> None:
     rng = np.random.default_rng(1)
     points = rng.uniform((0.5, -0.4), (2.0, 0.4), (20, 2))
-    at = np.column_stack((points, np.zeros(20), np.ones(20))) @ INVERSE.T
+    at = np.column_stack((points, np.zeros(20), np.ones(20))) @ TRUE_INVERSE.T
     pixels = CAMERA.pixels(LENS.bend(at[:, :2] / at[:, 2:3]))
     assert np.abs(off(centre_pnp(pixels, points, CAMERA, LENS))).max() < 1e-4  # m, rad
 
@@ -119,14 +131,14 @@ def test_a_single_pose_is_refused(good: list[BoardPair]) -> None:
 
 def test_identical_poses_count_once() -> None:
     rng = np.random.default_rng(2)
-    T = BoardPoses(CAMERA, LENS, BOARD, HELD).draw_before_lidar(rng, INVERSE, 0.0)
+    T = BoardPoses(CAMERA, LENS, BOARD, HELD).draw_before_lidar(rng, TRUE_INVERSE, 0.0)
     with pytest.raises(CalibrationError, match="1 pose of the board"):
         calibrated([pair(T, rng, f"pose {k}") for k in range(20)])
 
 
 def test_parallel_boards_are_refused_with_what_to_do() -> None:
     rng = np.random.default_rng(2)
-    T = BoardPoses(CAMERA, LENS, BOARD, HELD).draw_before_lidar(rng, INVERSE, 0.0)
+    T = BoardPoses(CAMERA, LENS, BOARD, HELD).draw_before_lidar(rng, TRUE_INVERSE, 0.0)
     T[:3, :3] = np.eye(3)
     shifted = []
     for k in range(12):

@@ -40,7 +40,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     (path / "both").mkdir()
     for k in range(14):
         cv2.imwrite(str(path / "lens" / f"a{k:02}.png"), camera.render(near.draw(rng), rng))
-        T = held.draw_before_lidar(rng, np.asarray(np.linalg.inv(MOUNT), dtype=np.float64), 0.04)
+        T = held.draw_before_lidar(rng, np.asarray(np.linalg.inv(MOUNT), np.float64), 0.04)
         cv2.imwrite(str(path / "both" / f"b{k:02}.png"), camera.render(T, rng))
         angles, distances = lidar.scan(MOUNT @ T, rng)
         rows = (f"{math.degrees(a):.4f},{d:.4f}" for a, d in zip(angles, distances, strict=True))
