@@ -27,7 +27,7 @@ from navcore.sim.young_orchard import LENGTH_M, YoungSegment
 
 Floats = NDArray[np.float64]
 
-STATIONS = np.arange(1.0, LENGTH_M)  # m along the row; at its very ends the robot still turns in, or out
+STATIONS = np.arange(1.0, LENGTH_M - 2.0)  # m along the row; near its end the robot stops to drive back
 VEHICLE = "paper_b"
 _START_NS = 1_000_000_000
 _POSE_S, _SETTLE_S, _DRIVE_S = 30.0, 2.0, 240.0

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import socket
 import threading
@@ -126,18 +127,22 @@ def test_a_device_on_a_serial_port_turns_until_the_reader_stops(turns: list[Revo
     ],
 )
 def test_what_is_no_sound_device_is_named(sends: bytes, problem: str, turns: list[Revolution]) -> None:
-    with socket.create_server(("127.0.0.1", 0)) as server:
+    done = threading.Event()
+    with socket.create_server(("127.0.0.1", 0)) as server, contextlib.ExitStack() as opened:
+        server.settimeout(0.05)
 
         def speak() -> None:
-            connections = []
-            while True:
-                connection, _ = server.accept()
-                connections.append(connection)
-                connection.sendall(sends)
+            while not done.is_set():
+                with contextlib.suppress(TimeoutError):
+                    opened.enter_context(connection := server.accept()[0])
+                    connection.sendall(sends)
 
-        threading.Thread(target=speak, daemon=True).start()
+        speaker = threading.Thread(target=speak, daemon=True)
+        speaker.start()
         reader = RplidarReader(lambda: TcpSource(*server.getsockname()), turns.append, time.monotonic_ns, PARAMS)
         reader.start()
         wait_for(lambda: reader.problem == problem)
         reader.stop()
+        done.set()
+        speaker.join()
     assert not turns
