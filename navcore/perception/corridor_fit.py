@@ -103,7 +103,7 @@ class CorridorFit:
         """
         p, scan = self._params, scan or nothing_scanned(len(feet))
         rays, used = self._rays(feet, scan, p.max_range, p.max_points)
-        scanned = self._scanned(scan, rays, p.max_range, p.max_points)
+        scanned = nearest_plants(scan.plants, p.max_range, p.max_points), self._pairs(scan, rays)
         start, _ = kernels.acquire(
             rays[used], scanned, mean, information, self._mount, self._noise, p.lines, p.tries, reach
         )  # fmt: skip
@@ -119,7 +119,7 @@ class CorridorFit:
         self, start: Floats, rays: Floats, used: Ints, scan: ScanEvidence, mean: Floats, information: Floats,
         widen: float,
     ) -> Corridor:  # fmt: skip
-        scanned = self._scanned(scan, rays, math.inf, len(scan.plants))
+        scanned = scan.plants, self._pairs(scan, rays)
         z, after, found, plant_sides = kernels.refine(
             start, rays[used], scanned, mean, information, self._mount, self._noise, 5, widen
         )  # fmt: skip
@@ -134,14 +134,11 @@ class CorridorFit:
             told_sides=np.concatenate((sides[~paired], plant_sides[sure])),
         )  # fmt: skip
 
-    def _scanned(self, scan: ScanEvidence, rays: Floats, furthest: float, most: int) -> kernels.Scanned:
-        """The nearest `most` plants up to `furthest` m away, and pairs (P, 2) of feet that are plants well ahead."""
-        away = np.hypot(scan.plants[:, 0], scan.plants[:, 1])
-        near = np.argsort(away, kind="stable")[:most]
+    def _pairs(self, scan: ScanEvidence, rays: Floats) -> Floats:
+        """(P, 2) of the feet that are plants well ahead; see `plant_kernels`."""
         feet = np.flatnonzero(scan.paired >= 0)
         pairs = np.column_stack((rays[feet, 1], scan.plants[scan.paired[feet], 0] - self._camera.x))
-        told = np.isfinite(pairs[:, 0]) & (pairs[:, 1] > NEAREST_PAIR)
-        return scan.plants[near[away[near] <= furthest]], pairs[told]
+        return np.asarray(pairs[np.isfinite(pairs[:, 0]) & (pairs[:, 1] > NEAREST_PAIR)], dtype=np.float64)
 
     def _rays(self, feet: Floats, scan: ScanEvidence, furthest: float, most: int) -> tuple[Floats, Ints]:
         """Rays (N, 2) as (s, t), and the indices of the nearest in range that are no scanned plant's feet."""
@@ -157,6 +154,13 @@ class CorridorFit:
         down = (s + rays[:, 1] * c) / ahead
         reach = np.where(down > 1e-3, camera.z / np.maximum(down, 1e-3), np.nan)
         return np.column_stack((camera.x + reach, camera.y + reach * rays[:, 0] / ahead))
+
+
+def nearest_plants(plants: Floats, furthest: float, most: int) -> Floats:
+    """The nearest `most` of plants (M, 4) up to `furthest` m away, nearest first."""
+    away = np.hypot(plants[:, 0], plants[:, 1])
+    near = np.argsort(away, kind="stable")[:most]
+    return plants[near[away[near] <= furthest]]
 
 
 def foot_rays(camera: PinholeCamera, feet: Floats) -> Floats:

@@ -59,7 +59,8 @@ class RowEye:
         if motion is None:
             perception.forget()
         self._last = request
-        prior, plants = row_prior(request, camera.z), self._plants(stamp_ns, request, scans)
+        prior, level = row_prior(request, camera.z), self._plants(stamp_ns, request, scans)
+        plants = self._leaning(level, request)
         view = perception.process(
             image, stamp_ns, request.camera, prior=prior, motion=motion, latency_ms=latency_ms, plants=plants
         )  # fmt: skip
@@ -68,10 +69,10 @@ class RowEye:
         self._tell(view, plants, camera)
         row = levelled(view.row, camera.z, request.roll)
         view = replace(view, row=replace(row, missing=row.missing or self._missing(request, plants)))
-        return view if plants is None else self._with_scan(view, request.camera)
+        return view if level is None else self._with_scan(_levelled_plants(view, level), request.camera)
 
     def _plants(self, stamp_ns: int, request: CameraRequest, scans: tuple[LidarScan, ...]) -> ScannedPlants | None:
-        """Scanned plants in the leaning driving frame, None without a LiDAR that sees."""
+        """Scanned plants in the driving frame, None without a LiDAR that sees."""
         if self._scan_eye is None:
             return None
         self._trail.add(request.stamp_ns, _odom(request))
@@ -81,8 +82,13 @@ class RowEye:
         if found is None:
             return None
         turned = SE2(0.0, 0.0, math.pi) if request.camera is CameraName.REAR else SE2()
-        height = self._cameras[request.camera].z
-        return leaning_plants(found.seen_from(turned), height, self._scan_eye.mount.z, request.roll)
+        return found.seen_from(turned)
+
+    def _leaning(self, plants: ScannedPlants | None, request: CameraRequest) -> ScannedPlants | None:
+        """Plants where the leaning camera sees them: what a picture and a scan tell goes into one fit."""
+        if plants is None or self._scan_eye is None:
+            return None
+        return leaning_plants(plants, self._cameras[request.camera].z, self._scan_eye.mount.z, request.roll)
 
     def _with_scan(self, view: CameraView, camera: CameraName) -> CameraView:
         """With the ends of the newest scan's rays, for drawing: in the picture and from above."""
@@ -117,6 +123,12 @@ class RowEye:
         if last is None or last.camera is not request.camera or request.offset is None:
             return None
         return _odom(last).inverse() @ _odom(request)
+
+
+def _levelled_plants(view: CameraView, plants: ScannedPlants) -> CameraView:
+    """The view with its plants, which are these, where they stand."""
+    told = zip(view.plants, plants.xy.tolist(), strict=True)
+    return replace(view, plants=tuple(replace(plant, x=x, y=y) for plant, (x, y) in told))
 
 
 def row_prior(request: CameraRequest, camera_height: float) -> RowPrior | None:

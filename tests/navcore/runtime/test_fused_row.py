@@ -163,6 +163,19 @@ def test_stakes_inside_the_row_do_not_move_the_middle() -> None:
     assert np.sqrt(np.mean(np.square(errors))) < 0.03  # m
 
 
+def test_each_plant_is_told_on_the_line_that_it_stands_on() -> None:
+    drive = Drive(8)
+    view = [drive.look() for _ in range(20)][-1]
+    told = {True: 0, False: 0}
+    for plant in view.plants:
+        y = drive.pose.apply_point(plant.x, plant.y)[1]
+        off = abs(abs(y) - WIDTH / 2)
+        if abs(plant.x) < 8.0 and plant.sureness > 0.5 and not 0.12 < off < 0.4:  # m
+            assert plant.side == (np.sign(y) if off <= 0.12 else 0), (plant, y)
+            told[off <= 0.12] += 1
+    assert min(told.values()) >= 8
+
+
 def test_a_blind_lidar_is_named() -> None:
     drive = Drive(6)
     for _ in range(12):
