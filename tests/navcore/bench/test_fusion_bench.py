@@ -70,7 +70,7 @@ def test_a_segment_is_driven_close_to_its_middle_and_kept(tmp_path: Path) -> Non
     assert driven.why == ""
     assert all(off is not None for off in driven.off)
     assert len(driven.off) == len(STATIONS)
-    assert tracking([driven]).mean < 0.06  # m
+    assert tracking([driven]).mean < 0.10  # m: what paper B counts as driven well
     assert driven.ours is not None
     assert driven.published is not None
     assert driven.ours.trees == driven.published.trees
