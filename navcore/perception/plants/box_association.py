@@ -35,7 +35,6 @@ class BoxAssociationParams:
         size: of the logarithm of a box's width over the plant's diameter.
         reach: plants further away than that have no box, m.
         alone: half the squared distance beyond which an object has no plant.
-        tie: a plant that another object or plant contests by less than that is nobody's: better none than the wrong.
     """
 
     box_px: float = 1.5
@@ -47,7 +46,6 @@ class BoxAssociationParams:
     size: float = 0.4
     reach: float = 12.0
     alone: float = 6.0
-    tie: float = 0.0
 
 
 def associate(

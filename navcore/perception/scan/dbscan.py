@@ -52,13 +52,6 @@ def dbscan(points: Floats, *, eps: float, min_points: int, centre: tuple[float, 
     return np.asarray(kernels.labels(len(xy), _pairs(xy, eps, centre), min_points))
 
 
-def expected_rays(diameter: float, distance: float, step_deg: float = 0.225) -> float:
-    """Rays that meet a trunk: N = 360 D / (2 pi r step) (Equation 8), for D and r in m."""
-    if not (diameter > 0.0 and distance > 0.0 and step_deg > 0.0):
-        raise ConfigError("The rays on a trunk need its diameter, its distance and the LiDAR's step above 0.")
-    return 360.0 * diameter / (2.0 * math.pi * distance * step_deg)
-
-
 def centroids(points: Floats, labels: Ints) -> Floats:
     """Mean (K, 2) of each cluster's points (N, 2)."""
     count = np.bincount(labels[labels >= 0])

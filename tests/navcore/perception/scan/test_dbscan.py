@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from navcore.errors import ConfigError, NotFiniteError
 from navcore.perception.scan import dbscan_kernels as kernels
-from navcore.perception.scan.dbscan import DbscanParams, centroids, dbscan, expected_rays
+from navcore.perception.scan.dbscan import DbscanParams, centroids, dbscan
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -99,10 +99,6 @@ def test_many_points_in_one_place_are_one_cluster() -> None:
 def test_centroids_are_the_means_of_clusters_without_noise() -> None:
     points = np.array([[0.0, 0.0], [9.0, 9.0], [1.0, 0.0], [4.0, 2.0]])
     assert centroids(points, np.array([0, -1, 0, 1])).tolist() == [[0.5, 0.0], [4.0, 2.0]]
-
-
-def test_a_trunk_of_5_cm_at_1_5_m_meets_8_rays() -> None:
-    assert expected_rays(0.05, 1.5) == pytest.approx(8.49, abs=0.01)  # rays, paper B Equation 8
 
 
 @pytest.mark.parametrize("bad", [math.nan, math.inf, 1e300])
