@@ -25,6 +25,7 @@ from navcore.runtime.clock import Ticker
 from navcore.runtime.pictures import Cameras
 from navcore.runtime.real_cameras import RealCameras
 from navcore.runtime.row_eye import RowEye
+from navcore.runtime.scan_warm_up import warm_up
 from navcore.runtime.scans import RealScans, Scans, SimulatedScans
 from navcore.runtime.simulated_cameras import SimulatedCameras
 from navcore.runtime.simulation import SimulationParams
@@ -50,6 +51,8 @@ class RowWorker:
     ) -> None:
         detectors, mounts = cameras.detectors(), cameras.mounts
         perceptions = {n: RowPerception(c, detectors[n], config.perception) for n, c in mounts.items()}
+        if scans is not None:
+            warm_up()
         self._cameras, self._scans = cameras, scans
         self._eye = RowEye(perceptions, mounts, ScanEye(scans.mount, config.scan) if scans else None)
         self._untaken: tuple[LidarScan, ...] = ()

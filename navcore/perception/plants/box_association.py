@@ -12,7 +12,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import linear_sum_assignment
 
 from navcore.geometry.pinhole import PinholeCamera
 from navcore.messages import DetectedObject
@@ -58,6 +57,9 @@ def associate(
     found = np.full(len(objects), -1, dtype=np.int64)
     if not objects or not len(plants):
         return found
+    # Half a second to import, which processes and robots without a LiDAR need not spend at their start.
+    from scipy.optimize import linear_sum_assignment
+
     costs = distances(objects, plants, camera, pitch, params)
     alone = np.full((len(objects), len(objects)), params.alone)
     rows, columns = linear_sum_assignment(np.hstack((costs, alone)))
