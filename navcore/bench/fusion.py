@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import multiprocessing
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
 import msgspec
 
-from navcore.bench.mission import single_threaded
 from navcore.bench.segment_cases import SegmentCase, SegmentCaseParams
 from navcore.bench.segment_drive import SegmentResult, drive_segment
+from navcore.bench.side_by_side import side_by_side
 from navcore.sim.young_orchard import Segment
 
 DRIVES = "segments.jsonl"
@@ -43,7 +42,7 @@ def drive_all(
     done = read_drives(folder / DRIVES)
     wanted = tuple(cases)
     left = [case for case in wanted if case not in done]
-    for result in _driven(left, processes):
+    for result in side_by_side(drive_segment, left, processes):
         with (folder / DRIVES).open("ab") as file:
             file.write(msgspec.json.encode(result) + b"\n")
         done[result.case] = result
@@ -61,14 +60,6 @@ def read_drives(path: Path) -> dict[SegmentCase, SegmentResult]:
             continue
         found[result.case] = result
     return found
-
-
-def _driven(cases: list[SegmentCase], processes: int) -> Iterable[SegmentResult]:
-    if processes <= 1 or len(cases) <= 1:
-        yield from map(drive_segment, cases)
-        return
-    with single_threaded(), multiprocessing.get_context("spawn").Pool(processes, maxtasksperchild=8) as pool:
-        yield from pool.imap_unordered(drive_segment, cases)
 
 
 def _told(result: SegmentResult, left: int) -> str:
