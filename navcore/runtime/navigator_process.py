@@ -74,8 +74,11 @@ class Senses:
         self._gnss.start()
         self._asked: Request | None = None
 
-    def gather(self, now_ns: int) -> NavInputs:
-        """Inputs of one tick, oldest first."""
+    def gather(self) -> NavInputs:
+        """Inputs of one tick, oldest first.
+
+        Its time is read last, so that nothing of it is newer: what has a negative age counts as old.
+        """
         imu: list[ImuSample] = []
         rows: list[RowObservation] = []
         for _ in range(MOST_MESSAGES):
@@ -86,9 +89,10 @@ class Senses:
                 imu.append(decode(ImuSample, received.payload))
             else:
                 rows.append(decode(RowObservation, received.payload))
+        chassis, gnss, requests = self.guard.receive(), self._fixes.take(), self._ask()
         return NavInputs(
-            now_ns=now_ns, chassis=self.guard.receive(), imu=tuple(imu), gnss=self._fixes.take(), rows=tuple(rows),
-            requests=self._ask(),
+            now_ns=time.monotonic_ns(), chassis=chassis, imu=tuple(imu), gnss=gnss, rows=tuple(rows),
+            requests=requests,
         )  # fmt: skip
 
     def answer(self, replies: tuple[Reply, ...]) -> None:
@@ -176,9 +180,8 @@ class NavigatorProcess:
 
     def tick(self) -> None:
         """One tick. The guard hears first."""
-        now_ns = time.monotonic_ns()
-        inputs = self._senses.gather(now_ns)
-        encoded = encode(inputs)
+        inputs = self._senses.gather()
+        now_ns, encoded = inputs.now_ns, encode(inputs)
         taken = self._understudy.step(now_ns, inputs, encoded)
         decision = taken.decision
         self._senses.guard.send(decision.guard_request, decision.command, now_ns)
