@@ -144,7 +144,7 @@ class TruePlants(ScanEye):
         n = len(near)
         return ScannedPlants(
             number=near, xy=xy[near], std=np.full(n, 0.001), diameter=2.0 * self._sections[near, 2],
-            hits=np.full(n, 100), sureness=np.ones(n),
+            hits=np.full(n, 100), sureness=np.ones(n), height=self.mount.z,
         )  # fmt: skip
 
     def ends(self, stamp_ns: int, trail: OdometryTrail) -> NDArray[np.float64]:

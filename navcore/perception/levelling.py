@@ -28,9 +28,9 @@ def leaning_offset(offset: float, width: float, height: float, roll: float) -> f
     return (left + right) / 2
 
 
-def leaning_plants(plants: ScannedPlants, camera_height: float, scan_height: float, roll: float) -> ScannedPlants:
-    """Plants in the leaning driving frame, seen at `scan_height`, where a leaning camera sees their feet (m, rad)."""
-    beside = plants.xy[:, 1] + (camera_height - scan_height) * math.sin(roll)
+def leaning_plants(plants: ScannedPlants, camera_height: float, roll: float) -> ScannedPlants:
+    """Plants as scanned from the leaning body, where a camera on it sees their feet (m, rad)."""
+    beside = plants.xy[:, 1] + (camera_height - plants.height) * math.sin(roll)
     limit = math.radians(85.0)
     angle = np.clip(np.arctan2(beside, camera_height) - roll, -limit, limit)
     return replace(plants, xy=np.column_stack((plants.xy[:, 0], camera_height * np.tan(angle))))

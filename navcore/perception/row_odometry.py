@@ -22,6 +22,7 @@ class RowOdometryParams:
 
     Attributes:
         furthest: plants further ahead than that do not count, m: a wrong pitch moves them by decimetres.
+        behind: nor do those that a scan shows further behind, m: they tell nothing that the near ones do not.
         gate: a foot belongs to a plant not further off along the row, m.
         known: so many sightings make a plant a mark; steady: its place is their mean, and of no more than so many.
         least: so many marks must be in sight.
@@ -31,6 +32,7 @@ class RowOdometryParams:
     """
 
     furthest: float = 7.0
+    behind: float = 2.0
     gate: float = 0.35
     known: int = 3
     steady: int = 25
@@ -96,9 +98,9 @@ class RowOdometry:
 
     def _ahead(self, row: GroundRow) -> list[tuple[bool, float]]:
         """Side and distance along the row of the feet that are near, m."""
-        nearer = 1.0 if row.scanned else self._nearer
+        p, nearer = self._params, 1.0 if row.scanned else self._nearer
         c, s = nearer * math.cos(row.heading), nearer * math.sin(row.heading)
-        return [(left, x * c + y * s) for left, x, y in row.feet() if x < self._params.furthest]
+        return [(left, x * c + y * s) for left, x, y in row.feet() if -p.behind < x < p.furthest]
 
     def _beyond(self, feet: list[Foot]) -> float:
         """By how much the marks seem to stand further along than they do, m: 0 where there are too few."""

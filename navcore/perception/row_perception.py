@@ -22,6 +22,7 @@ from navcore.perception.ground_row import GroundRowParams, ground_row
 from navcore.perception.image_lines import driving_camera, image_bisector, looks_back, published_reading
 from navcore.perception.lean_watch import LeanWatch, LeanWatchParams, Reading
 from navcore.perception.least_squares import LeastSquares
+from navcore.perception.levelling import leaning_plants
 from navcore.perception.plants.box_association import BoxAssociationParams, associate, corners_of, slopes
 from navcore.perception.plants.scanned_plants import ScannedPlants, no_plants
 from navcore.perception.row_bands import filter_region
@@ -152,10 +153,12 @@ class RowPerception:
     def _look(self, image: Image | None, plants: ScannedPlants, prior: RowPrior | None) -> Look:
         fault = self._fault(image) if image is not None else "the camera gives no picture"
         objects = () if fault or image is None else self._detector.detect(image)
-        pitch = prior.pitch or 0.0 if prior else 0.0
-        found = associate(objects, plants, self._camera, pitch, self._params.association)
+        roll, pitch = (prior.roll, prior.pitch or 0.0) if prior else (0.0, 0.0)
+        # A picture and a scan go into one fit: both as the leaning camera sees them.
+        leaning = leaning_plants(plants, self._camera.z, roll)
+        found = associate(objects, leaning, self._camera, pitch, self._params.association)
         corners, used = self._corner_points(objects)
-        scan = ScanEvidence(plants=plants.evidence(), paired=found[used]) if len(plants) else None
+        scan = ScanEvidence(plants=leaning.evidence(), paired=found[used]) if len(plants) else None
         return Look(fault=fault, objects=objects, corners=corners, plants=plants, found=found, scan=scan)
 
     def _read_lean(self, row: GroundRow | None, cue: RowCue) -> Reading | None:

@@ -21,7 +21,7 @@ from navcore.messages import (
 )
 from navcore.perception.detector import Image
 from navcore.perception.image_lines import driving_camera
-from navcore.perception.levelling import leaning_offset, leaning_plants, levelled
+from navcore.perception.levelling import leaning_offset, levelled
 from navcore.perception.plants.box_association import should_be_seen
 from navcore.perception.plants.odometry_trail import OdometryTrail
 from navcore.perception.plants.scan_eye import ScanEye
@@ -59,8 +59,7 @@ class RowEye:
         if motion is None:
             perception.forget()
         self._last = request
-        prior, level = row_prior(request, camera.z), self._plants(stamp_ns, request, scans)
-        plants = self._leaning(level, request)
+        prior, plants = row_prior(request, camera.z), self._plants(stamp_ns, request, scans)
         view = perception.process(
             image, stamp_ns, request.camera, prior=prior, motion=motion, latency_ms=latency_ms, plants=plants
         )  # fmt: skip
@@ -69,11 +68,14 @@ class RowEye:
         self._tell(view, plants, camera)
         row = levelled(view.row, camera.z, request.roll)
         view = replace(view, row=replace(row, missing=row.missing or self._missing(request, plants)))
-        return view if level is None else self._with_scan(_levelled_plants(view, level), request.camera)
+        return view if plants is None else self._with_scan(view, request.camera)
 
     def _plants(self, stamp_ns: int, request: CameraRequest, scans: tuple[LidarScan, ...]) -> ScannedPlants | None:
-        """Scanned plants in the driving frame, None without a LiDAR that sees."""
-        if self._scan_eye is None:
+        """Scanned plants in the driving frame, None without a LiDAR that sees.
+
+        Nor where no row is expected: nobody tells then how the robot moves.
+        """
+        if self._scan_eye is None or request.offset is None:
             return None
         self._trail.add(request.stamp_ns, _odom(request))
         for scan in scans:
@@ -83,12 +85,6 @@ class RowEye:
             return None
         turned = SE2(0.0, 0.0, math.pi) if request.camera is CameraName.REAR else SE2()
         return found.seen_from(turned)
-
-    def _leaning(self, plants: ScannedPlants | None, request: CameraRequest) -> ScannedPlants | None:
-        """Plants where the leaning camera sees them: what a picture and a scan tell goes into one fit."""
-        if plants is None or self._scan_eye is None:
-            return None
-        return leaning_plants(plants, self._cameras[request.camera].z, self._scan_eye.mount.z, request.roll)
 
     def _with_scan(self, view: CameraView, camera: CameraName) -> CameraView:
         """With the ends of the newest scan's rays, for drawing: in the picture and from above."""
@@ -123,12 +119,6 @@ class RowEye:
         if last is None or last.camera is not request.camera or request.offset is None:
             return None
         return _odom(last).inverse() @ _odom(request)
-
-
-def _levelled_plants(view: CameraView, plants: ScannedPlants) -> CameraView:
-    """The view with its plants, which are these, where they stand."""
-    told = zip(view.plants, plants.xy.tolist(), strict=True)
-    return replace(view, plants=tuple(replace(plant, x=x, y=y) for plant, (x, y) in told))
 
 
 def row_prior(request: CameraRequest, camera_height: float) -> RowPrior | None:

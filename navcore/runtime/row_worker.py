@@ -9,6 +9,7 @@ from __future__ import annotations
 import argparse
 import signal
 import time
+from collections import deque
 from dataclasses import replace
 from pathlib import Path
 
@@ -26,7 +27,7 @@ from navcore.runtime.pictures import Cameras
 from navcore.runtime.real_cameras import RealCameras
 from navcore.runtime.row_eye import RowEye
 from navcore.runtime.scan_warm_up import warm_up
-from navcore.runtime.scans import RealScans, Scans, SimulatedScans
+from navcore.runtime.scans import MOST_SCANS, RealScans, Scans, SimulatedScans
 from navcore.runtime.simulated_cameras import SimulatedCameras
 from navcore.runtime.simulation import SimulationParams
 from navcore.runtime.site_file import read_site
@@ -55,7 +56,7 @@ class RowWorker:
             warm_up()
         self._cameras, self._scans = cameras, scans
         self._eye = RowEye(perceptions, mounts, ScanEye(scans.mount, config.scan) if scans else None)
-        self._untaken: tuple[LidarScan, ...] = ()
+        self._waiting: deque[LidarScan] = deque(maxlen=MOST_SCANS)
         self._pictured_ns = time.monotonic_ns()
         self._publisher = Publisher(endpoints, "row_worker")
         self._bus = Subscriber(endpoints, (CAMERA_REQUEST.name,))
@@ -84,7 +85,7 @@ class RowWorker:
         self._bus.close()
 
     def _see(self, request: CameraRequest, *, for_navigator: bool) -> None:
-        self._untaken += self._take_scans()
+        self._waiting.extend(self._take_scans())
         picture = self._cameras.take(request.camera)
         if picture is None:
             if for_navigator:
@@ -113,7 +114,8 @@ class RowWorker:
         return scans
 
     def _scans_once(self) -> tuple[LidarScan, ...]:
-        scans, self._untaken = self._untaken, ()
+        scans = tuple(self._waiting)
+        self._waiting.clear()
         return scans
 
     def _show(self, view: CameraView, image: Image) -> None:

@@ -57,7 +57,7 @@ class PlantTracker:
     def forget(self) -> None:
         """The next scan does not follow the last one."""
         self._pose, self._next = SE2(), 0
-        self._plants = no_plants()
+        self._plants = no_plants(self._mount.z)
         self._since_hit: Ints = np.empty(0, dtype=np.int64)
         self._evidence = PlantEvidence(self._params.evidence)
 
@@ -82,7 +82,7 @@ class PlantTracker:
         now = self._plants.only(seen).seen_from((self._pose @ since).inverse())
         return ScannedPlants(
             number=now.number, xy=now.xy, std=now.std, diameter=now.diameter, hits=now.hits,
-            sureness=self._evidence.sureness()[seen],
+            sureness=self._evidence.sureness()[seen], height=now.height,
         )  # fmt: skip
 
     def told_by_camera(self, boxed: Ints, blank: Ints) -> None:
@@ -126,6 +126,7 @@ class PlantTracker:
             number=np.concatenate((old.number, self._next + np.arange(n))), xy=np.vstack((old.xy, xy)),
             std=np.concatenate((old.std, std)), diameter=np.concatenate((old.diameter, diameter)),
             hits=np.concatenate((old.hits, np.ones(n, dtype=np.int64))), sureness=np.zeros(len(old) + n),
+            height=old.height,
         )  # fmt: skip
         self._since_hit = np.concatenate((self._since_hit, np.zeros(n, dtype=np.int64)))
         self._next += n

@@ -23,6 +23,7 @@ class ScannedPlants:
         diameter: (N,) m.
         hits: (N,) in how many scans it was met.
         sureness: (N,) 0 to 1: that it is a trunk or a post and no weed, stake or passer-by.
+        height: of the scan above the ground, m.
     """
 
     number: Ints
@@ -31,6 +32,7 @@ class ScannedPlants:
     diameter: Floats
     hits: Ints
     sureness: Floats
+    height: float
 
     def __len__(self) -> int:
         return len(self.number)
@@ -43,7 +45,7 @@ class ScannedPlants:
         """Those for which `mask` (N,) is True."""
         return ScannedPlants(
             number=self.number[mask], xy=self.xy[mask], std=self.std[mask], diameter=self.diameter[mask],
-            hits=self.hits[mask], sureness=self.sureness[mask],
+            hits=self.hits[mask], sureness=self.sureness[mask], height=self.height,
         )  # fmt: skip
 
     def evidence(self) -> Floats:
@@ -51,7 +53,9 @@ class ScannedPlants:
         return np.column_stack((self.xy, self.std, self.sureness))
 
 
-def no_plants() -> ScannedPlants:
+def no_plants(height: float = 0.0) -> ScannedPlants:
     """Of a robot without a LiDAR, or before its first scan."""
     none, whole = np.empty(0), np.empty(0, dtype=np.int64)
-    return ScannedPlants(number=whole, xy=np.empty((0, 2)), std=none, diameter=none, hits=whole, sureness=none)
+    return ScannedPlants(
+        number=whole, xy=np.empty((0, 2)), std=none, diameter=none, hits=whole, sureness=none, height=height
+    )

@@ -176,6 +176,22 @@ def test_each_plant_is_told_on_the_line_that_it_stands_on() -> None:
     assert min(told.values()) >= 8
 
 
+def test_where_no_row_is_expected_the_lidar_tells_nothing_and_begins_anew() -> None:
+    """Nobody tells then how the robot moves, and what was seen before would be smeared over the farm."""
+    drive = Drive(9)
+    for _ in range(15):
+        drive.look()
+    for _ in range(3):
+        drive.i += 1
+        nothing = CameraRequest(stamp_ns=drive.i * NS, camera=CameraName.FRONT, odom_x=0.0, odom_y=0.0, odom_yaw=0.0)
+        view = drive.eye.look(picture(FRONT), drive.i * NS, nothing, scans=(drive._scan(),))
+        assert view.plants == ()
+        assert view.row.source is RowSource.CAMERA
+        assert view.row.missing == ""
+    views = [(drive.look(), drive.pose) for _ in range(20)]
+    assert max(abs(error(view, pose)[0]) for view, pose in views[8:]) < 0.05  # m
+
+
 def test_a_blind_lidar_is_named() -> None:
     drive = Drive(6)
     for _ in range(12):
