@@ -64,11 +64,15 @@ class PinholeCamera:
         depth = np.where(p[:, 2] > 1e-3, p[:, 2], np.nan)
         return np.column_stack((self.cx + self.fx * p[:, 0] / depth, self.cy + self.fy * p[:, 1] / depth))
 
+    def rays(self, pixels: Floats) -> Floats:
+        """Directions (N, 3) in `base_link` of pixels (N, 2), each 1 long along the optical axis."""
+        uv = np.asarray(pixels, dtype=np.float64).reshape(-1, 2)
+        rays = np.column_stack(((uv[:, 0] - self.cx) / self.fx, (uv[:, 1] - self.cy) / self.fy, np.ones(len(uv))))
+        return np.asarray(rays @ self.R_base_camera().T)
+
     def ground(self, pixels: Floats) -> Floats:
         """Points (N, 2) on the ground plane z = 0 of `base_link` under pixels (N, 2); NaN at or above the horizon."""
-        uv = np.asarray(pixels, dtype=np.float64)
-        rays = np.column_stack(((uv[:, 0] - self.cx) / self.fx, (uv[:, 1] - self.cy) / self.fy, np.ones(len(uv))))
-        d = rays @ self.R_base_camera().T
+        d = self.rays(pixels)
         scale = np.where(d[:, 2] < -1e-6, -self.z / np.minimum(d[:, 2], -1e-6), np.nan)
         return np.column_stack((self.x + scale * d[:, 0], self.y + scale * d[:, 1]))
 

@@ -165,10 +165,6 @@ def nearest_plants(plants: Floats, furthest: float, most: int) -> Floats:
 
 def foot_rays(camera: PinholeCamera, feet: Floats) -> Floats:
     """Rays (1, s, -t) in the driving frame, as (s, t), (N, 2), of pixels (N, 2); NaN for those not ahead."""
-    uv = np.asarray(feet, dtype=np.float64).reshape(-1, 2)
-    optical = np.column_stack(
-        ((uv[:, 0] - camera.cx) / camera.fx, (uv[:, 1] - camera.cy) / camera.fy, np.ones(len(uv)))
-    )
-    d = optical @ camera.R_base_camera().T
+    d = camera.rays(feet)
     ahead = np.where(d[:, :1] > 1e-3, d[:, :1], np.nan)
     return np.asarray(np.column_stack((d[:, 1], -d[:, 2])) / ahead, dtype=np.float64)

@@ -27,11 +27,7 @@ def camera_centre(camera: PinholeCamera) -> Floats:
 
 def pixel_rays(camera: PinholeCamera, pixels: Floats) -> Floats:
     """Directions d (K, 3) of undistorted pixels (K, 2), |d| = 1: ((u - c_x) / f_x, (v - c_y) / f_y, 1), turned."""
-    uv = np.asarray(pixels, dtype=np.float64).reshape(-1, 2)
-    optical = np.column_stack(
-        ((uv[:, 0] - camera.cx) / camera.fx, (uv[:, 1] - camera.cy) / camera.fy, np.ones(len(uv)))
-    )
-    rays = optical @ camera.R_base_camera().T
+    rays = camera.rays(pixels)
     return np.asarray(rays / np.linalg.norm(rays, axis=1, keepdims=True))
 
 
