@@ -5,7 +5,6 @@ from __future__ import annotations
 import socket
 import time
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 
@@ -16,11 +15,9 @@ from tests.navcore.chassis.test_protocol import known_state
 
 
 def test_a_chassis_that_reports_while_the_tick_gathers_is_not_from_the_future(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    endpoints: Endpoints, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """On a busy machine milliseconds pass between a tick's begin and its reading."""
-    endpoints = Endpoints(tmp_path / "bus")
-    endpoints.prepare()
     senses = Senses(endpoints, "tcp://127.0.0.1:9")
     receive = senses.guard.receive
 

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Iterator
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
 import cv2
 import pytest
@@ -43,15 +41,6 @@ def video(tmp_path_factory: pytest.TempPathFactory) -> Path:
         writer.write(renderer.render(truth, i).image)
     writer.release()
     return path
-
-
-@pytest.fixture
-def endpoints() -> Iterator[Endpoints]:
-    """In a directory whose name is short: socket paths end at 107 bytes."""
-    with TemporaryDirectory(prefix="rp-") as directory:
-        found = Endpoints(Path(directory))
-        found.prepare()
-        yield found
 
 
 def views(worker: RowWorker, subscriber: Subscriber, wanted: int) -> list[tuple[CameraView, bytes]]:
