@@ -32,12 +32,15 @@ class RowVisit:
         exit: NEXT_ROW changes to the next visit by a headland turn; REVERSE drives back out by the rear camera;
             THROUGH leaves at the far end onto the inbound waypoints.
         speed: m/s in the row.
+        stop_at: id of a trunk of the site's trunk map beside which the robot stops and waits for the operator; it
+            drives no further into the row, and leaves it in reverse. None: the whole row.
     """
 
     row_id: str
     from_start: bool = True
     exit: RowExit = RowExit.REVERSE
     speed: float = 0.6
+    stop_at: str | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
