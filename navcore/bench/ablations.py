@@ -46,7 +46,7 @@ class EachSideAlone:
     def __init__(self, camera: PinholeCamera, *, on_ground: bool) -> None:
         self._camera, p = camera, CorridorFitParams()
         scale = camera.width_px / 640 / camera.fx
-        scatter = (p.plant_std, p.curve) if on_ground else (0.0, 0.0)
+        scatter = (p.plant_std, p.curve, p.scanned_std) if on_ground else (0.0, 0.0, 0.0)
         self._noise = (p.foot_u_px * scale, p.foot_v_px * scale, *scatter)
 
     def fit(self, corners: CornerPoints, cue: RowCue) -> RowLines:

@@ -21,7 +21,7 @@ OUTLIERS = (0.3, 0.5)
 # Camera 0.8 m above the ground; 1-sigma of a foot's ray (dimensionless), of the plants about their line, m.
 HEIGHT, RAY_STD, PLANT_STD = 0.8, 0.003, 0.03
 RIGHT_RAD = 0.03
-_NOISE = (RAY_STD, RAY_STD, CorridorFitParams().plant_std, CorridorFitParams().curve)
+_NOISE = (RAY_STD, RAY_STD, CorridorFitParams().plant_std, CorridorFitParams().curve, PLANT_STD)
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -10,11 +9,11 @@ from numpy.typing import NDArray
 
 from navcore.bench.segment_cases import Chain, SegmentCase
 from navcore.bench.segment_eyes import ChainEye, OracleEye, OurEye, Pictures, new_chain
+from navcore.bench.segment_survey import SegmentSurvey
 from navcore.bench.tree_matches import TreeMatches, WatchedEye
 from navcore.config import RobotConfig
 from navcore.errors import MissionError
 from navcore.geometry.lidar_mount import robot_lidar
-from navcore.geometry.se2 import SE2
 from navcore.maps.mission import RowExit
 from navcore.messages import Request, RequestKind, RunState, SimTruth
 from navcore.planning.mission_planner import plan_mission
@@ -39,7 +38,8 @@ class SegmentResult:
     """One driven segment.
 
     Attributes:
-        off: lateral deviation from the middle at each of `STATIONS`, m, + left; None where it never got to.
+        off: lateral deviation from the middle as surveyed at each of `STATIONS`, m, + left; None where it never got
+            to. planned: from the middle as it was meant to be planted.
         why: what the operator was told where it did not get through.
         ours, published: trees that the camera knows and the LiDAR placed, on the same pictures and scans; of
             `Chain.OURS` only.
@@ -47,6 +47,7 @@ class SegmentResult:
 
     case: SegmentCase
     off: tuple[float | None, ...]
+    planned: tuple[float | None, ...]
     why: str
     ours: TreeMatches | None = None
     published: TreeMatches | None = None
@@ -63,12 +64,12 @@ def drive_segment(case: SegmentCase) -> SegmentResult:
     lockstep = Lockstep(world, config.new_navigator(young.site.datum), eye)
     poses: list[tuple[float, float]] = []
     lockstep.listeners.append(lambda tick: poses.append((tick.truth.x, tick.truth.y)))
-    why = _drive(lockstep, case, young, config)
-    off = _off_the_middle(np.array(poses), young, world)
-    told = tuple(None if math.isnan(e) else float(e) for e in off)
-    if isinstance(eye, WatchedEye):
-        return SegmentResult(case=case, off=told, why=why, ours=eye.ours, published=eye.published)
-    return SegmentResult(case=case, off=told, why=why)
+    survey = SegmentSurvey(young)
+    why = _drive(lockstep, case, young, survey, config)
+    there = survey.T_row_map.apply(np.array(poses))
+    off, planned = (_at_stations(there, middle(there[:, 0])) for middle in (survey.middle, survey.planned))
+    watched = {"ours": eye.ours, "published": eye.published} if isinstance(eye, WatchedEye) else {}
+    return SegmentResult(case=case, off=off, planned=planned, why=why, **watched)
 
 
 def _eye(case: SegmentCase, world: World, config: RobotConfig) -> Eye:
@@ -82,7 +83,9 @@ def _eye(case: SegmentCase, world: World, config: RobotConfig) -> Eye:
     return ChainEye(new_chain(case.chain, mount), pictures, mount)
 
 
-def _drive(lockstep: Lockstep, case: SegmentCase, young: YoungSegment, config: RobotConfig) -> str:
+def _drive(
+    lockstep: Lockstep, case: SegmentCase, young: YoungSegment, survey: SegmentSurvey, config: RobotConfig
+) -> str:
     """Why it did not get through, empty if it did."""
     mission = mission_for_row(young.site, young.row, RowExit.REVERSE)
     mission = replace(mission, visits=tuple(replace(visit, speed=case.speed) for visit in mission.visits))
@@ -96,48 +99,30 @@ def _drive(lockstep: Lockstep, case: SegmentCase, young: YoungSegment, config: R
     reply = lockstep.tick().decision.replies[0]
     if not reply.accepted:
         return " ".join(reply.reasons)
-    row = RowFrame(young, lockstep.world)
-    last = lockstep.run(_DRIVE_S, lambda tick: row.along(tick.truth) >= STATIONS[-1] + 0.2 or _rests(tick))
-    if row.along(last.truth) >= STATIONS[-1]:
+    last = lockstep.run(_DRIVE_S, lambda tick: _along(survey, tick.truth) >= STATIONS[-1] + 0.2 or _rests(tick))
+    if _along(survey, last.truth) >= STATIONS[-1]:
         return ""
     return "; ".join(e.text for e in last.decision.status.events) or "not through in time"
+
+
+def _along(survey: SegmentSurvey, truth: SimTruth) -> float:
+    return survey.T_row_map.apply_point(truth.x, truth.y)[0]
 
 
 def _rests(tick: Tick) -> bool:
     return tick.decision.status.state in _RESTING
 
 
-class RowFrame:
-    """The true segment: (along it from its first headland, left of its straight), m."""
-
-    def __init__(self, young: YoungSegment, world: World) -> None:
-        row = world.site.row(young.row)
-        yaw = math.atan2(row.end[1] - row.start[1], row.end[0] - row.start[0])
-        self._T_row_map = SE2(row.start[0], row.start[1], yaw).inverse()
-        drawn = young.site.row(young.row)
-        drawn_yaw = math.atan2(drawn.end[1] - drawn.start[1], drawn.end[0] - drawn.start[0])
-        T_row_drawn = SE2(drawn.start[0], drawn.start[1], drawn_yaw).inverse()
-        self._middle = T_row_drawn.apply(np.array(young.centre_line))
-
-    def along(self, truth: SimTruth) -> float:
-        """Metres along the segment."""
-        return self._T_row_map.apply_point(truth.x, truth.y)[0]
-
-    def off_the_middle(self, poses: Floats) -> Floats:
-        """Left of the middle, m, and how far along, of true places (N, 2): (N, 2)."""
-        there = self._T_row_map.apply(poses)
-        middle = np.interp(there[:, 0], self._middle[:, 0], self._middle[:, 1])
-        return np.column_stack((there[:, 0], there[:, 1] - middle))
-
-
-def _off_the_middle(poses: Floats, young: YoungSegment, world: World) -> Floats:
-    """At each station when it was first passed, NaN where it was not."""
-    along, off = RowFrame(young, world).off_the_middle(poses).T
-    found = np.full(len(STATIONS), np.nan)
-    for i, station in enumerate(STATIONS):
+def _at_stations(there: Floats, middle: Floats) -> tuple[float | None, ...]:
+    """Left of the middle (N,) at each station when places (N, 2) first passed it, None where none did."""
+    along, off = there[:, 0], there[:, 1] - middle
+    found: list[float | None] = []
+    for station in STATIONS:
         passed = np.flatnonzero((along[:-1] < station) & (along[1:] >= station) & (np.abs(off[1:]) < 1.5))
-        if len(passed):
-            k = passed[0]
-            share = (station - along[k]) / (along[k + 1] - along[k])
-            found[i] = off[k] + share * (off[k + 1] - off[k])
-    return found
+        if not len(passed):
+            found.append(None)
+            continue
+        k = passed[0]
+        share = (station - along[k]) / (along[k + 1] - along[k])
+        found.append(float(off[k] + share * (off[k + 1] - off[k])))
+    return tuple(found)

@@ -23,6 +23,8 @@ Floats = NDArray[np.float64]
 FOOT_PX, OTHER_PX = 14.0, 28.0
 # A place is a tree's if it lies nearer to it than this, m.
 PLACE_M = 0.25
+# What stands so much further from a tree's middle than another look at it did may still be the tree, m.
+STILL_M = 0.04
 # Objects further away are not counted, m.
 REACH_M = 8.0
 # A tree counts as associated once it was in so many pictures.
@@ -53,7 +55,7 @@ class Tally:
         self._seen: dict[int, int] = {}
         self._found: dict[int, int] = {}
         self._right = self._wrong = 0
-        self._thickness: dict[int, float] = {}
+        self._thickness: dict[int, tuple[float, float]] = {}
 
     def add(self, tree: int, place: int | None) -> None:
         """An object that is `tree` was put at the place of tree `place`, -1 for no tree's; None: at no place."""
@@ -66,16 +68,19 @@ class Tally:
         else:
             self._wrong += 1
 
-    def measure(self, tree: int, error: float) -> None:
-        """The newest diameter of a tree that is passed, minus the true one, m."""
-        self._thickness[tree] = error
+    def measure(self, tree: int, off: float, error: float) -> None:
+        """A diameter minus the tree's true one, m, of what stands `off` m from it; of a tree and its stake the nearer
+        one counts, and of that the newest.
+        """
+        if off <= self._thickness.get(tree, (math.inf, 0.0))[0] + STILL_M:
+            self._thickness[tree] = min(off, self._thickness.get(tree, (off, 0.0))[0]), error
 
     def matches(self) -> TreeMatches:
         """So far."""
         seen = [tree for tree, n in self._seen.items() if n >= PICTURES]
         return TreeMatches(
             trees=len(seen), found=sum(self._found.get(tree, 0) >= PICTURES for tree in seen), right=self._right,
-            wrong=self._wrong, thickness=tuple(self._thickness.values()),
+            wrong=self._wrong, thickness=tuple(error for _, error in self._thickness.values()),
         )  # fmt: skip
 
 
@@ -119,7 +124,11 @@ class WatchedEye:
         for plant in view.plants:
             tree = self._tree_at(truth, (plant.x, plant.y))
             if tree is not None and tree >= 0 and abs(plant.x) < 1.0 and 1.0 < abs(plant.y) < 2.0:
-                self._ours.measure(tree, plant.diameter - 2.0 * float(self._sections[tree, 2]))
+                x, y = SE2(truth.x, truth.y, truth.yaw).apply_point(plant.x, plant.y)
+                there = self._sections[tree]
+                self._ours.measure(
+                    tree, math.hypot(there[0] - x, there[1] - y), plant.diameter - 2.0 * float(there[2])
+                )
 
     def _published_places(self) -> dict[tuple[float, ...], tuple[float, float]]:
         seen = self._published.seen

@@ -43,7 +43,7 @@ class LineTrackerParams:
 class LineTracker:
     """Pursuit in the straightened frame of the line, on the predicted pose, with curvature fed forward.
 
-    With lateral error e and heading error h of the *predicted* pose and look-ahead L, pure pursuit of a straight
+    With lateral error e and heading error h of the *predicted* course and look-ahead L, pure pursuit of a straight
     line is k = (2/L) sin(h_d - h) with the approach angle h_d = -asin(e/L); ours is stiffer than that. To this come
     the line's own curvature, carried over to the robot's offset: k_line cos(h) / (1 - k_line e), an integral of e for
     what pushes steadily, and the learnt turn response. The approach angle is bounded so that the robot can still
@@ -76,7 +76,7 @@ class LineTracker:
         """See `Controller.steer`."""
         self._response.update(now_ns, motion.omega, self._history)
         then = self._predict(motion, now_ns)
-        curvature = self._curvature(target, then, v, look_ahead) + self._integral
+        curvature = self._curvature(target, then, motion.drift, v, look_ahead) + self._integral
         steering = self._command(curvature, v)
         self._integrate(target, steering, now_ns)
         self._history.add(now_ns, steering.v, steering.omega)
@@ -86,10 +86,10 @@ class LineTracker:
         horizon = self._actuator.dead_time + self._params.lag_share * self._actuator.lag
         return self._history.predict(now_ns, motion, self.turn_gain, horizon)
 
-    def _curvature(self, target: TargetLine, then: Predicted, v: float, look_ahead: float) -> float:
+    def _curvature(self, target: TargetLine, then: Predicted, drift: float, v: float, look_ahead: float) -> float:
         pose = then.T_now_then
         hit = target.path.project(pose.x, pose.y, target.s)
-        heading_error = wrap(pose.yaw - hit.heading)
+        heading_error = wrap(pose.yaw + drift - hit.heading)
         line = target.path.curvature_at(hit.s + self._params.feedforward_lead * v)
         carried = line * math.cos(heading_error) / max(1.0 - line * hit.lateral, 0.3)
         approach = self._approach(hit.lateral, v, look_ahead)

@@ -10,10 +10,14 @@ from navcore.control.target_line import TargetLine
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Motion:
-    """How the robot moves now, in the driving frame: `v` along x (m/s) and true turn rate `omega` (rad/s)."""
+    """How the robot moves now, in the driving frame: `v` along x (m/s) and true turn rate `omega` (rad/s).
+
+    `drift` is the direction in which it goes while it points straight ahead, rad: a side slope pulls it down.
+    """
 
     v: float
     omega: float
+    drift: float = 0.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -71,6 +71,10 @@ class DeadReckoning:
         """Roll against gravity, rad, left side up."""
         self._slope = math.sin(roll)
 
+    def drift(self, roll: float) -> float:
+        """Direction of the motion, rad, of a robot that points straight ahead and drives on land of that roll."""
+        return -math.atan(self._creep * math.sin(roll))
+
     def add_wheels(self, stamp_ns: int, v: float, omega: float) -> None:
         """Measured speed, m/s, and turn rate of the wheels, rad/s."""
         self._advance(stamp_ns)

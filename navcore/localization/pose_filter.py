@@ -150,6 +150,10 @@ class PoseFilter:
         """How far the robot leans to the side against gravity, rad, left side up: on a slope it creeps downhill."""
         self._odometry.lean(roll)
 
+    def drift(self, roll: float) -> float:
+        """Direction in which it goes while it points ahead on land of that roll, rad: by its creep, as learned."""
+        return self._odometry.drift(roll)
+
     def learn_creep(self, more: float) -> None:
         """By so much more than believed it creeps, per metre driven and unit of slope."""
         self._odometry.learn_creep(more)

@@ -216,6 +216,7 @@ class CameraRequest:
         to_start: metres ahead at which the wanted row begins (negative inside), by map and odometry.
         to_end: metres ahead at which it ends.
         roll, pitch: how the driving frame leans against the ground, rad (left side up, nose down).
+        land_roll: how the ground there slopes to the side, left side up, rad: plants grow upright on it.
     """
 
     stamp_ns: int
@@ -231,3 +232,4 @@ class CameraRequest:
     to_end: float | None = None
     roll: float = 0.0
     pitch: float = 0.0
+    land_roll: float = 0.0

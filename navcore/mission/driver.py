@@ -8,7 +8,7 @@ from navcore.control.line_tracker import LineTracker, LineTrackerParams
 from navcore.control.look_ahead import LookAheadParams, gnss_look_ahead, row_look_ahead
 from navcore.control.prediction import ActuatorParams
 from navcore.control.speed_regulation import SpeedLimit, SpeedRegulation, SpeedRegulationParams, tightest
-from navcore.control.steering import Motion
+from navcore.control.steering import Motion, Steering
 from navcore.control.stop_zones import StopZoneParams, StopZones
 from navcore.control.target_line import TargetLine, target_from_path
 from navcore.geometry.se2 import SE2
@@ -105,10 +105,12 @@ class Driver:
         target = self._target(pilot, senses, now_ns)
         zone = self._zone_limit(pilot.pose, pose)
         limit = self._speed(target, pilot, now_ns, (*limits, *self._mode_limits(pilot), zone))
-        v, omega = self._steer(target, pilot, pose, limit.speed, now_ns)
+        sign = -1.0 if pilot.leg.reverse else 1.0
+        motion = Motion(v=sign * pose.v, omega=pose.omega, drift=sign * senses.drift)
+        steering = self._steer(target, pilot, motion, limit.speed, now_ns)
         return Driving(
-            v=v,
-            omega=omega,
+            v=sign * steering.v,
+            omega=steering.omega,
             deadline_ns=target.deadline_ns,
             speed_limit=limit.speed,
             speed_reason=limit.reason,
@@ -163,15 +165,10 @@ class Driver:
             capturing=True, others=limits,
         )  # fmt: skip
 
-    def _steer(
-        self, target: TargetLine, pilot: Pilot, pose: PoseEstimate, speed: float, now_ns: int
-    ) -> tuple[float, float]:
-        """(v, omega) of `base_link`; a leg driven backwards only turns the sign of v."""
-        sign = -1.0 if pilot.leg.reverse else 1.0
+    def _steer(self, target: TargetLine, pilot: Pilot, motion: Motion, speed: float, now_ns: int) -> Steering:
+        """In the driving frame; a leg driven backwards only turns the sign of v."""
         in_row = pilot.mode in ON_CAMERA or pilot.before_seen_row
         look_ahead = (
             row_look_ahead(speed, self.params.look_ahead) if in_row else gnss_look_ahead(self.params.look_ahead)
         )
-        motion = Motion(v=sign * pose.v, omega=pose.omega)
-        steering = self.controller.steer(target, motion, v=speed, look_ahead=look_ahead, now_ns=now_ns)
-        return sign * steering.v, steering.omega
+        return self.controller.steer(target, motion, v=speed, look_ahead=look_ahead, now_ns=now_ns)

@@ -9,7 +9,16 @@ from navcore.geometry.se2 import SE2
 from navcore.localization.path_anchor import HALF_TURN, PathAnchor
 from navcore.localization.row_filter import look_noise
 from navcore.localization.row_line import RowLine
-from navcore.messages import CameraName, MissionPlan, ModeSwitch, NavMode, PathSegment, RowObservation, SegmentKind
+from navcore.messages import (
+    CameraName,
+    MissionPlan,
+    ModeSwitch,
+    NavMode,
+    PathSegment,
+    RowObservation,
+    RowSource,
+    SegmentKind,
+)
 from navcore.mission.along_row import AlongRow
 from navcore.mission.evidence import NO_IDEA, Doubt, RowEvidence
 from navcore.mission.look_back import LeftRow, LookBack
@@ -140,6 +149,8 @@ class Pilot:
         turned_to = self.mode is NavMode.HEADLAND and self._turned_to_row(row, T_odom_drive)
         if (self.mode in ON_CAMERA or turned_to) and seen.offset is not None and seen.heading is not None:
             noise = look_noise(seen.offset_std or 0.05, seen.heading_std or 0.02, seen.correlation)
+            if seen.source is not RowSource.CAMERA:
+                noise = noise * self.params.scanned_share
             self.anchor.see_row(row, T_odom_drive, seen.offset, seen.heading, noise)
             self.carried = 0.0
         if self.mode in ALONG_ROW:

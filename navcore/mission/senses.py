@@ -66,6 +66,12 @@ class Senses:
             self.attitude.see_lean(self.T_odom_base.yaw, side * row.lean, row.lean_std)
 
     @property
+    def drift(self) -> float:
+        """Direction in which the robot goes on this land while it points straight ahead, rad in `base_link`."""
+        land_roll = self.attitude.roll - self.attitude.against_ground(self.T_odom_base.yaw)[0]
+        return self.filter.drift(land_roll)
+
+    @property
     def T_map_base(self) -> SE2 | None:
         """The filter's pose, None before it has one."""
         return SE2(self.pose.x, self.pose.y, self.pose.yaw) if self.pose else None

@@ -32,7 +32,8 @@ class CorridorFitParams:
 
     Attributes:
         foot_u_px, foot_v_px: 1-sigma of a box's foot at 640 px image width, scaled with the width; > 0.
-        plant_std: 1-sigma of the plants about their line, m.
+        plant_std: 1-sigma of the plants about their line, m; scanned_std: the same for scanned ones, of which the fit
+            has to find out which stand on its lines, not where these are to the centimetre.
         curve: extra scatter per squared metre of distance, 1/m: rows are not quite straight.
         max_range: feet further away than this do not help to find a corridor, m; `far_range`: nor to follow one. The
             first two plants tell a row's direction badly, and before its entrance they are the nearest.
@@ -43,6 +44,7 @@ class CorridorFitParams:
     foot_u_px: float = 1.5
     foot_v_px: float = 2.0
     plant_std: float = 0.06
+    scanned_std: float = 0.10
     curve: float = 0.0005
     max_range: float = 14.0
     far_range: float = 24.0
@@ -92,7 +94,8 @@ class CorridorFit:
         self._params = params
         self._mount = (camera.x, camera.y, camera.z)
         scale = camera.width_px / 640 / camera.fx
-        self._noise = (params.foot_u_px * scale, params.foot_v_px * scale, params.plant_std, params.curve)
+        scatter = params.plant_std, params.curve, params.scanned_std
+        self._noise = (params.foot_u_px * scale, params.foot_v_px * scale, *scatter)
 
     def acquire(
         self, feet: Floats, mean: Floats, information: Floats, reach: tuple[float, float],

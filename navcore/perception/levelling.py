@@ -28,9 +28,13 @@ def leaning_offset(offset: float, width: float, height: float, roll: float) -> f
     return (left + right) / 2
 
 
-def leaning_plants(plants: ScannedPlants, camera_height: float, roll: float) -> ScannedPlants:
-    """Plants as scanned from the leaning body, where a camera on it sees their feet (m, rad)."""
-    beside = plants.xy[:, 1] + (camera_height - plants.height) * math.sin(roll)
+def leaning_plants(plants: ScannedPlants, camera_height: float, roll: float, land_roll: float = 0.0) -> ScannedPlants:
+    """Plants as scanned from the leaning body, where a camera on it sees their feet (m, rad).
+
+    On land that slopes to the side by `land_roll` they grow upright: the scan meets them uphill of their feet.
+    """
+    uphill = plants.height * math.tan(land_roll)
+    beside = plants.xy[:, 1] - uphill + (camera_height - plants.height) * math.sin(roll)
     limit = math.radians(85.0)
     angle = np.clip(np.arctan2(beside, camera_height) - roll, -limit, limit)
     return replace(plants, xy=np.column_stack((plants.xy[:, 0], camera_height * np.tan(angle))))

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 Mount = tuple[float, float, float]
-Noise = tuple[float, float, float, float]
+Noise = tuple[float, float, float, float, float]
 
 # Normalised residual beyond which a point is no evidence for a line.
 GATE = 3.0

@@ -21,7 +21,7 @@ Ints = NDArray[np.int64]
 @njit(cache=True)
 def plant_std(x: float, std: float, noise: Noise) -> float:
     """1-sigma of a plant about its line, m."""
-    scatter = noise[2] + noise[3] * x * x
+    scatter = noise[4] + noise[3] * x * x
     return math.sqrt(std * std + scatter * scatter)
 
 

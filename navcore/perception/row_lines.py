@@ -28,7 +28,8 @@ class RowPrior:
         width: corridor width, m; None if not known.
         heading_std: 1-sigma of `heading`, rad.
         pitch: how much further down than its mount says the camera looks, rad; None if nobody knows.
-        roll: how far the driving frame leans to the side, left side up, rad, as the IMU tells it.
+        roll: how far the driving frame leans against the ground to the side, left side up, rad, as the IMU tells it.
+        land_roll: how far the ground does, against gravity.
     """
 
     offset: float
@@ -38,6 +39,7 @@ class RowPrior:
     heading_std: float = 0.09
     pitch: float | None = None
     roll: float = 0.0
+    land_roll: float = 0.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

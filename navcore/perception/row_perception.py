@@ -14,6 +14,7 @@ from navcore.geometry.se2 import SE2
 from navcore.messages import CameraName, CameraView, DetectedObject, RowSource
 from navcore.perception.camera_view import camera_view, row_observation, scanned_plants
 from navcore.perception.corner_points import CornerPoints, corner_points
+from navcore.perception.corridor_fit import SURE
 from navcore.perception.corridor_track import CorridorTrackerParams
 from navcore.perception.corridor_tracker import CorridorTracker
 from navcore.perception.detector import Detector, Image, picture_fault
@@ -23,6 +24,7 @@ from navcore.perception.image_lines import driving_camera, image_bisector, looks
 from navcore.perception.lean_watch import LeanWatch, LeanWatchParams, Reading
 from navcore.perception.least_squares import LeastSquares
 from navcore.perception.levelling import leaning_plants
+from navcore.perception.plants.bending_row import BendingRow, BendingRowParams
 from navcore.perception.plants.box_association import BoxAssociationParams, associate, corners_of, slopes
 from navcore.perception.plants.scanned_plants import ScannedPlants, no_plants
 from navcore.perception.row_bands import filter_region
@@ -66,6 +68,7 @@ class RowPerceptionParams:
     lean: LeanWatchParams = LeanWatchParams()
     odometry: RowOdometryParams = RowOdometryParams()
     association: BoxAssociationParams = BoxAssociationParams()
+    bending: BendingRowParams = BendingRowParams()
 
 
 def row_line_fitter(camera: PinholeCamera, params: RowPerceptionParams) -> RowLineFitter:
@@ -116,6 +119,7 @@ class RowPerception:
         self._end = RowEnd(params.row_end)
         self._lean = LeanWatch(self._camera, params.lean)
         self._odometry = RowOdometry(camera.z, params.odometry)
+        self._bending = BendingRow(params.bending)
         c = self._camera
         self._region = filter_region(params.filter, width_px=c.width_px, height_px=c.height_px)
 
@@ -138,6 +142,7 @@ class RowPerception:
         reading = self._read_lean(told, cue)
         driven = self._odometry.see(told, cue.motion, stamp_ns)
         end = self._row_end(told, cue.motion)
+        ground = self._by_scan(ground, seen.scan)
         shown = ground if seen.scan else seen.fault or ground
         row = row_observation(
             stamp_ns, camera_name, lines, shown, end, self._seen_to(ground), published, reading, driven
@@ -153,10 +158,11 @@ class RowPerception:
     def _look(self, image: Image | None, plants: ScannedPlants, prior: RowPrior | None) -> Look:
         fault = self._fault(image) if image is not None else "the camera gives no picture"
         objects = () if fault or image is None else self._detector.detect(image)
-        roll, pitch = (prior.roll, prior.pitch or 0.0) if prior else (0.0, 0.0)
+        roll, pitch, land = (prior.roll, prior.pitch or 0.0, prior.land_roll) if prior else (0.0, 0.0, 0.0)
+        # Boxes reach about as high as the scan: one body carries both sensors, however it leans.
+        found = associate(objects, plants, self._camera, pitch, self._params.association)
         # A picture and a scan go into one fit: both as the leaning camera sees them.
-        leaning = leaning_plants(plants, self._camera.z, roll)
-        found = associate(objects, leaning, self._camera, pitch, self._params.association)
+        leaning = leaning_plants(plants, self._camera.z, roll, land)
         corners, used = self._corner_points(objects)
         scan = ScanEvidence(plants=leaning.evidence(), paired=found[used]) if len(plants) else None
         return Look(fault=fault, objects=objects, corners=corners, plants=plants, found=found, scan=scan)
@@ -192,6 +198,14 @@ class RowPerception:
     def _on_ground(self, lines: RowLines, corners: CornerPoints) -> GroundRow | str:
         """The corridor on the ground, or why there is none."""
         return lines.reason or lines.ground or ground_row(lines, corners, self._camera, self._params.ground)
+
+    def _by_scan(self, ground: GroundRow | str, scan: ScanEvidence | None) -> GroundRow | str:
+        """The corridor as the scanned plants on its lines tell it, who know better where its middle runs."""
+        if scan is None or isinstance(ground, str) or ground.carried:
+            return ground
+        sure = scan.plants[scan.plants[:, 3] >= SURE]
+        middle = self._bending.fit(ground.offset, ground.heading, ground.width, sure)
+        return replace(ground, **middle._asdict()) if middle else ground
 
     def _row_end(self, row: GroundRow | None, motion: SE2 | None) -> float | None:
         """By the plants the robot got so far since the last picture, and by the wheels where no row is seen."""

@@ -128,7 +128,8 @@ def row_prior(request: CameraRequest, camera_height: float) -> RowPrior | None:
     std = max(request.offset_std or 0.0, LEAST_PRIOR_STD)
     offset = leaning_offset(request.offset, request.width or USUAL_WIDTH, camera_height, request.roll)
     return RowPrior(
-        offset=offset, heading=request.heading, std=std, width=request.width, pitch=request.pitch, roll=request.roll
+        offset=offset, heading=request.heading, std=std, width=request.width, pitch=request.pitch, roll=request.roll,
+        land_roll=request.land_roll,
     )  # fmt: skip
 
 

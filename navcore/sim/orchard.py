@@ -129,6 +129,8 @@ class Orchard:
         roads: (R, 5) x0, y0, x1, y1, half width of each stretch of road.
         shed: the warehouse building, None where the site has none or no place is free for it.
         clutter: weeds and stakes, never labelled as trunk or post.
+        uphill: east and north, by how much what stands there is further uphill for each metre above the ground. The
+            plane z = 0 is the land, which slopes, and plants grow upright.
     """
 
     params: OrchardParams
@@ -147,6 +149,7 @@ class Orchard:
     roads: Floats
     shed: Shed | None
     clutter: Clutter = NO_CLUTTER
+    uphill: tuple[float, float] = (0.0, 0.0)
 
     @property
     def trellis(self) -> Trellis:

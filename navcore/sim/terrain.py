@@ -114,6 +114,11 @@ class Terrain:
         row = min(max(int((y - self._y0) * self._inverse_cell), 0), self._row_count - 1)
         return Surface(self._surfaces[row * self._columns + column])
 
+    @property
+    def slope(self) -> tuple[float, float]:
+        """Rise of the whole site towards east and north, m per m."""
+        return self._slope
+
     def land_tilt(self, yaw: float) -> tuple[float, float]:
         """Roll and pitch (rad) that the site's slope alone gives: plants and ground lean with the robot by it."""
         gx, gy = self._slope

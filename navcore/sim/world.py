@@ -18,7 +18,7 @@ from navcore.sim.gnss_receiver import AntennaState, GnssReceiver, GnssReceiverPa
 from navcore.sim.imu import Imu, ImuParams
 from navcore.sim.lidar2d import WORKING, Lidar2d, Lidar2dFaults, Lidar2dParams
 from navcore.sim.map_error import MapErrorParams, perturb
-from navcore.sim.orchard import Orchard, OrchardParams, build_orchard
+from navcore.sim.orchard import OrchardParams, build_orchard
 from navcore.sim.parking import parked
 from navcore.sim.terrain import SURFACE_TRAITS, Surface, Terrain, TerrainParams
 from navcore.sim.vehicle_dynamics import VehicleDynamics, VehicleDynamicsParams, WheelState
@@ -122,10 +122,12 @@ class World:
         map_rng, ground_rng, drive_rng, imu_rng, gnss_rng, park_rng, lidar_rng = map(np.random.default_rng, streams)
         self._vehicle, self._start_ns, self._now_ns, self._steps = vehicle, start_ns, start_ns, 0
         self.site = perturb(site, params.map_error, map_rng)
-        self.orchard: Orchard = build_orchard(self.site, replace(params.orchard, seed=params.seed))
+        self._terrain = Terrain(self.site, params.terrain, ground_rng)
+        orchard = build_orchard(self.site, replace(params.orchard, seed=params.seed))
+        # A scan meets plants above their feet, where the slope matters; pictures are read by the feet.
+        self.orchard = replace(orchard, uphill=self._terrain.slope) if params.lidar2d else orchard
         self.faults = WorldFaults()
         self.touched: list[SimContact] = []
-        self._terrain = Terrain(self.site, params.terrain, ground_rng)
         pose = parked(self.site, params.start, params.parking_std_m, params.parking_std_deg, park_rng)
         self._drive = VehicleDynamics(vehicle, params.dynamics, params.payload, pose, drive_rng)
         canopy = Canopy(self.orchard, params.canopy, params.seed)

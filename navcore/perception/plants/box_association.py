@@ -8,7 +8,7 @@ its foot is, roughly; the scan tells both well. The assignment of all boxes to a
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,9 +31,13 @@ class BoxAssociationParams:
         mount_deg: of the bearing between the two sensors, deg.
         lean: by so much a trunk stands aside at the scan's height of where its foot is, m.
         pitch_deg: of the camera's pitch about what is told; range_share: of a foot's distance beside that.
-        size: of the logarithm of a box's width over the plant's diameter.
+        wider: logarithm of how much wider a box is than the plant's diameter: trunks sway and fork, and a scan misses
+            the edges of thin ones far away. size: 1-sigma of it.
         reach: plants further away than that have no box, m.
+        sureness: at most so much counts against a plant that is hardly a trunk, in the measure of `alone`.
         alone: half the squared distance beyond which an object has no plant.
+        fewest: so many feet of plants tell the pitch; known_pitch: which is known to that share of `pitch_deg` then.
+        clear: an object that another plant fits nearly as well, by less than that, is left without one.
     """
 
     box_px: float = 1.5
@@ -42,9 +46,14 @@ class BoxAssociationParams:
     lean: float = 0.03
     pitch_deg: float = 0.7
     range_share: float = 0.06
-    size: float = 0.4
+    wider: float = 0.65
+    size: float = 0.35
     reach: float = 12.0
+    sureness: float = 3.0
     alone: float = 6.0
+    fewest: int = 4
+    known_pitch: float = 0.4
+    clear: float = 1.5
 
 
 def associate(
@@ -54,18 +63,48 @@ def associate(
     """(N,) index of the plant that each object is, -1 for none. `plants` are in the frame of `camera`'s mount, and
     `pitch` is by how much further down than its mount the camera looks, rad.
     """
-    found = np.full(len(objects), -1, dtype=np.int64)
     if not objects or not len(plants):
-        return found
+        return np.full(len(objects), -1, dtype=np.int64)
+    first = _assigned(distances(objects, plants, camera, pitch, params), params)
+    told, known = _told_pitch(objects, plants, first, camera, pitch, params)
+    return _assigned(distances(objects, plants, camera, told, known), params) if known is not params else first
+
+
+def _told_pitch(
+    objects: tuple[DetectedObject, ...], plants: ScannedPlants, found: Ints, camera: PinholeCamera, pitch: float,
+    p: BoxAssociationParams,
+) -> tuple[float, BoxAssociationParams]:  # fmt: skip
+    """The pitch as the feet of `found` plants tell it, and how well it is known then; as before where too few do."""
+    paired = np.flatnonzero(found >= 0)
+    ahead = plants.xy[found[paired], 0] - camera.x
+    boxes = corners_of(objects)[paired]
+    seen = foot_rays(camera, np.column_stack(((boxes[:, 0] + boxes[:, 2]) / 2, boxes[:, 3])))[:, 1]
+    off = np.arctan(camera.z / np.maximum(ahead, 0.3)) - np.arctan(seen)
+    off = off[np.isfinite(off) & (boxes[:, 3] <= camera.height_px - 1.0)]
+    if len(off) < p.fewest:
+        return pitch, p
+    return float(np.median(off)), replace(p, pitch_deg=p.pitch_deg * p.known_pitch)
+
+
+def _assigned(costs: Floats, params: BoxAssociationParams) -> Ints:
+    """(N,) index of the plant of each object by costs (N, M), -1 for none: the likeliest of all together."""
     # Half a second to import, which processes and robots without a LiDAR need not spend at their start.
     from scipy.optimize import linear_sum_assignment
 
-    costs = distances(objects, plants, camera, pitch, params)
-    alone = np.full((len(objects), len(objects)), params.alone)
+    found = np.full(len(costs), -1, dtype=np.int64)
+    alone = np.full((len(costs), len(costs)), params.alone)
     rows, columns = linear_sum_assignment(np.hstack((costs, alone)))
-    taken = columns < len(plants)
+    taken = (columns < costs.shape[1]) & (_lead(costs)[rows] >= params.clear)
     found[rows[taken]] = columns[taken]
     return found
+
+
+def _lead(costs: Floats) -> Floats:
+    """(N,) by how much the plant that fits an object best does so better than the next one."""
+    if costs.shape[1] < 2:
+        return np.full(len(costs), np.inf)
+    best, next_best = np.partition(costs, 1, axis=1)[:, :2].T
+    return np.asarray(next_best - best)
 
 
 def distances(
@@ -83,9 +122,11 @@ def distances(
     )  # fmt: skip
     told_size = np.maximum(plants.diameter, 0.01) / ahead
     size = np.log(((boxes[:, 2] - boxes[:, 0]) / camera.fx)[:, None] / told_size[None])
-    total = (across / across_std[None]) ** 2 + (size / p.size) ** 2 + _by_foot(boxes, ahead, camera, pitch, p)
+    by_middle = (across / across_std[None]) ** 2 + ((size - p.wider) / p.size) ** 2
+    total = by_middle + _by_foot(boxes, ahead, camera, pitch, p)
+    doubt = np.minimum(-np.log(np.maximum(plants.sureness, 1e-6)), p.sureness)
     out_of_reach = (x < 0.3) | (np.hypot(x, y) > p.reach)
-    return np.where(out_of_reach[None], 2.0 * p.alone + 1.0, 0.5 * total)
+    return np.where(out_of_reach[None], 2.0 * p.alone + 1.0, 0.5 * total + doubt[None])
 
 
 def _by_foot(boxes: Floats, ahead: Floats, camera: PinholeCamera, pitch: float, p: BoxAssociationParams) -> Floats:

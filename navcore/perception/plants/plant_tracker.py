@@ -59,6 +59,7 @@ class PlantTracker:
         self._pose, self._next = SE2(), 0
         self._plants = no_plants(self._mount.z)
         self._since_hit: Ints = np.empty(0, dtype=np.int64)
+        self._measured: Floats = np.empty(0)  # weight of all diameters so far, 1/m^2
         self._evidence = PlantEvidence(self._params.evidence)
 
     def see(self, trunks: ScanTrunks, motion: SE2, turn: SE2 = SE2()) -> SE2:
@@ -103,24 +104,29 @@ class PlantTracker:
         mine, theirs = matches(xy, self._plants.xy, self._params.gate)
         self._since_hit += 1
         self._since_hit[theirs] = 0
-        self._blend(xy[mine], std[mine], trunks.diameter[mine], trunks.cut[mine], theirs)
+        self._blend(xy[mine], std[mine], theirs)
+        self._thicken(trunks, mine, theirs)
         new = np.setdiff1d(np.arange(len(xy)), mine)
-        self._add(xy[new], std[new], trunks.diameter[new])
+        self._add(xy[new], std[new], trunks.diameter[new], _weight(trunks)[new])
         self._evidence.met(theirs, trunks.diameter[mine], trunks.roughness[mine], trunks.cut[mine])
         self._evidence.add(trunks.diameter[new], trunks.roughness[new], trunks.cut[new])
 
-    def _blend(self, xy: Floats, std: Floats, diameter: Floats, cut: NDArray[np.bool_], i: Ints) -> None:
-        """A Kalman step for each plant `i`; of one that is cut the diameter tells nothing."""
+    def _blend(self, xy: Floats, std: Floats, i: Ints) -> None:
+        """A Kalman step for each plant `i`."""
         p, plants = self._params, self._plants
         variance = plants.std[i] ** 2 + p.steady**2
         gain = variance / (variance + std**2)
         plants.xy[i] += gain[:, None] * (xy - plants.xy[i])
         plants.std[i] = np.maximum(np.sqrt((1.0 - gain) * variance), p.least_std)
-        share = np.where(cut, 0.0, 1.0 / np.minimum(plants.hits[i] + 1, 30))
-        plants.diameter[i] += share * (diameter - plants.diameter[i])
         plants.hits[i] += 1
 
-    def _add(self, xy: Floats, std: Floats, diameter: Floats) -> None:
+    def _thicken(self, trunks: ScanTrunks, mine: Ints, i: Ints) -> None:
+        """The mean diameter of each plant `i`, near looks counting more: their rays stand closer."""
+        weight = _weight(trunks)[mine]
+        self._measured[i] += weight
+        self._plants.diameter[i] += weight / self._measured[i] * (trunks.diameter[mine] - self._plants.diameter[i])
+
+    def _add(self, xy: Floats, std: Floats, diameter: Floats, weight: Floats) -> None:
         n, old = len(xy), self._plants
         self._plants = ScannedPlants(
             number=np.concatenate((old.number, self._next + np.arange(n))), xy=np.vstack((old.xy, xy)),
@@ -129,6 +135,7 @@ class PlantTracker:
             height=old.height,
         )  # fmt: skip
         self._since_hit = np.concatenate((self._since_hit, np.zeros(n, dtype=np.int64)))
+        self._measured = np.concatenate((self._measured, weight))
         self._next += n
 
     def _clear(self) -> None:
@@ -140,4 +147,10 @@ class PlantTracker:
         if kept.all():
             return
         self._plants, self._since_hit = plants.only(kept), self._since_hit[kept]
+        self._measured = self._measured[kept]
         self._evidence.keep(kept)
+
+
+def _weight(trunks: ScanTrunks) -> Floats:
+    """(K,) how much a scan's diameters count, 1/m^2: those of trunks that are cut hardly at all."""
+    return np.asarray(np.where(trunks.cut, 1.0, trunks.diameter_std**-2.0), dtype=np.float64)

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from navcore.sim.orchard import Orchard, Standing, Trellis
 from navcore.sim.render.buffers import Floats
-from navcore.sim.render.primitives import RINGS, Primitives
+from navcore.sim.render.primitives import RINGS, Primitives, upright
 from navcore.sim.render.undergrowth import stake_tubes, weed_stalks
 from navcore.sim.shed import Shed
 from navcore.sim.textures.atlas import Material
@@ -34,12 +34,13 @@ def planted(orchard: Orchard, cards: Floats) -> Primitives:
     owners = np.concatenate((np.arange(1, len(trunks) + len(posts) + 1), np.zeros(len(stakes), np.int64)))
     stalks = weed_stalks(orchard.clutter, orchard.params.seed)
     panels, panel_look = _shed_panels(orchard.shed)
-    return Primitives(
+    standing = Primitives(
         tubes=np.concatenate((trunks, posts, stakes)),
         tube_look=np.column_stack((look, owners)).astype(np.int64),
         beams=np.concatenate((_branches(orchard, trunks, rng), _wires(orchard), stalks)),
         cards=cards, panels=panels, panel_look=panel_look,
     )  # fmt: skip
+    return upright(standing, orchard.uphill) if any(orchard.uphill) else standing
 
 
 def _trunks(trunks: Floats, rng: np.random.Generator) -> Floats:

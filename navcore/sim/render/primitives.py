@@ -48,6 +48,14 @@ class Primitives(NamedTuple):
     panel_look: Floats
 
 
+def upright(p: Primitives, uphill: tuple[float, float]) -> Primitives:
+    """The same on sloping land: each point is moved by `uphill` (east, north) for each metre above the ground."""
+    tubes, beams, cards, panels = p.tubes.copy(), p.beams.copy(), p.cards.copy(), p.panels.copy()
+    for places in (tubes, beams[:, :3], beams[:, 3:6], cards, panels):
+        places[..., :2] += places[..., 2:3] * uphill
+    return p._replace(tubes=tubes, beams=beams, cards=cards, panels=panels)
+
+
 def into_chunks(p: Primitives) -> Chunks:
     """Sort primitives into square cells of the ground; each cell that holds any is a chunk."""
     middles, reaches = _spheres(p)

@@ -23,7 +23,7 @@ CASE = SegmentCase(
 
 def result(*off: float | None, chain: Chain = Chain.OURS) -> SegmentResult:
     case = SegmentCase(chain=chain, segment=Segment.STRAIGHT, run=0, speed=1.0, light=LightName.NOON)
-    return SegmentResult(case=case, off=off, why="")
+    return SegmentResult(case=case, off=off, planned=off, why="")
 
 
 def test_every_chain_drives_the_same_orchards_at_the_same_speeds_in_the_same_light() -> None:

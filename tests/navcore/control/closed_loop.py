@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -130,11 +130,12 @@ class Drive:
 def drive(
     course: Polyline, controller: Controller, *, seed: int, v: float = 0.8, look_ahead: float = 1.2,
     start_offset: float = 1.1, unkind: Unkind = Unkind(), measured_on: Polyline | None = None,
-    hold_speed: bool = False,
+    hold_speed: bool = False, drift: float = 0.0,
 ) -> Drive:  # fmt: skip
     """Follow a course from standstill `start_offset` metres left of its first point.
 
-    `hold_speed` drives at `v` throughout, as the paper did; else the speed is regulated.
+    `hold_speed` drives at `v` throughout, as the paper did; else the speed is regulated. `drift` is what the
+    controller is told of the creep, rad.
     """
     rng = np.random.default_rng(seed)
     heading = course.heading_at(0.0)
@@ -156,7 +157,8 @@ def drive(
             target, wanted=v, now_ns=now_ns, turn_gain=gain, lateral_std=0.02, capturing=true_s < 10.0
         )
         speed = v if hold_speed else limit.speed
-        steering = controller.steer(target, motion, v=speed, look_ahead=look_ahead, now_ns=now_ns)
+        told = replace(motion, drift=drift)
+        steering = controller.steer(target, told, v=speed, look_ahead=look_ahead, now_ns=now_ns)
         for _ in range(PLANT_STEPS):
             plant.step(steering.v, steering.omega, dt / PLANT_STEPS)
         motion = estimator.step(plant, dt)

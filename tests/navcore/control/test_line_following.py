@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import pytest
 
@@ -64,3 +66,12 @@ def test_the_turn_response_of_the_ground_is_learnt() -> None:
     tracker = LineTracker()
     drive(curve().slice(0.0, 40.0), tracker, seed=107, unkind=Unkind(turn_ratio=2.0))
     assert tracker.turn_gain == pytest.approx(0.5, abs=0.05)
+
+
+def test_a_robot_that_is_pulled_down_a_slope_and_knows_it_goes_straight_all_the_same() -> None:
+    """It points uphill by as much as it is pulled down: 5 cm for each metre driven."""
+    line = straight()
+    pulled = Unkind(creep=-0.05)
+    unknown = drive(line, LineTracker(), seed=3, start_offset=0.0, unkind=pulled)
+    known = drive(line, LineTracker(), seed=3, start_offset=0.0, unkind=pulled, drift=math.atan(-0.05))
+    assert abs(known.lateral[known.s < 12.0].mean()) < 0.6 * abs(unknown.lateral[unknown.s < 12.0].mean())

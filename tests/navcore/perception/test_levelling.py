@@ -10,7 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from navcore.geometry.pinhole import robot_camera, rotation_from_rpy
-from navcore.perception.levelling import leaning_offset, upright_offset
+from navcore.perception.levelling import leaning_offset, leaning_plants, upright_offset
+from navcore.perception.plants.scanned_plants import ScannedPlants
 
 HEIGHT = 0.8
 offsets, rolls = st.floats(-0.5, 0.5), st.floats(-0.05, 0.05)
@@ -41,3 +42,16 @@ def test_levelling_agrees_with_projection_through_a_leaning_camera(roll: float) 
     offset, width = (seen[0] + seen[1]) / 2, seen[0] - seen[1]
     assert abs(offset - 0.2) > 0.1  # m: leaning matters
     assert upright_offset(offset, width, HEIGHT, roll) == pytest.approx(0.2, abs=0.02)  # m
+
+
+@pytest.mark.parametrize("slope_deg", [8.0, -8.0])
+def test_on_a_side_slope_plants_grow_upright_and_are_scanned_uphill_of_their_feet(slope_deg: float) -> None:
+    """The robot stands level on the land, which rises to its left; the scan is 0.55 m above it."""
+    rise, feet = math.tan(math.radians(slope_deg)), np.array(((3.0, 1.2), (4.0, -1.3)))
+    scanned = ScannedPlants(
+        number=np.arange(2), xy=feet + np.array((0.0, 0.55 * rise)), std=np.full(2, 0.01), diameter=np.full(2, 0.1),
+        hits=np.full(2, 9), sureness=np.ones(2), height=0.55,
+    )  # fmt: skip
+    found = leaning_plants(scanned, HEIGHT, roll=0.0, land_roll=math.radians(slope_deg))
+    assert found.xy == pytest.approx(feet, abs=1e-9)  # m
+    assert abs(leaning_plants(scanned, HEIGHT, roll=0.0).xy[0, 1] - 1.2) > 0.07  # m

@@ -77,6 +77,15 @@ def test_a_trunk_is_met_on_the_circle_that_it_is_at_that_height() -> None:
     assert set(np.array(turn.owners)[np.array(turn.scan.distances) > 0.0]) == {1}
 
 
+def test_on_sloping_land_a_trunk_stands_upright_and_is_met_uphill_of_its_foot() -> None:
+    level = lone_tree(2.0, 0.7)
+    sloping = replace(level, uphill=(0.0, 0.14))
+    (x, y, _), (up_x, up_y, up_r) = (trunk_sections(tree, robot_lidar().z)[0] for tree in (level, sloping))
+    assert (up_x, up_y) == pytest.approx((x, y + 0.14 * robot_lidar().z), abs=1e-9)  # m
+    hits = ends(turns(sloping, FLAWLESS)[0].scan)
+    assert np.abs(np.hypot(hits[:, 0] - up_x, hits[:, 1] - up_y) - up_r).max() < 2e-3  # m: a tilted tube
+
+
 def test_as_many_rays_meet_a_trunk_as_its_width_in_angle_asks_for() -> None:
     tree = lone_tree(2.5, 0.0)
     x, y, r = trunk_sections(tree, robot_lidar().z)[0]
