@@ -6,7 +6,6 @@ u right, v down. Angles are radians in (-pi, pi], counter-clockwise from east.
 """
 
 from navcore.messages.camera import (
-    CameraMount,
     CameraName,
     CameraRequest,
     CameraView,
@@ -19,6 +18,7 @@ from navcore.messages.camera import (
     RowSource,
     ScannedPlant,
 )
+from navcore.messages.camera_mount import CameraMount, MountAgreement
 from navcore.messages.mission_plan import USUAL_WIDTH, MissionPlan, PathSegment, Point, SegmentKind
 from navcore.messages.recorder import RecorderStatus
 from navcore.messages.request import LinkLossPolicy, Reply, Request, RequestKind
@@ -47,6 +47,7 @@ __all__ = [
     "LinkLossPolicy",
     "MissionPlan",
     "ModeSwitch",
+    "MountAgreement",
     "NavInputs",
     "NavMode",
     "NavPrelude",

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import StrEnum
 
+from navcore.messages.camera_mount import CameraMount, MountAgreement
+
 
 class CameraName(StrEnum):
     """The two cameras of paper A's robot."""
@@ -89,22 +91,6 @@ class ScannedPlant:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class CameraMount:
-    """How a camera is mounted, as the plants tell that it was driven up to; each with its 1-sigma.
-
-    Attributes:
-        pitch: by so much further down than its settings say it looks, the IMU being right, rad.
-        height: above the ground, m; told_height: as its settings say.
-    """
-
-    pitch: float
-    pitch_std: float
-    height: float
-    height_std: float
-    told_height: float
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
 class RowObservation:
     """The row ahead as one sensor saw it at `stamp_ns`, in the camera's driving frame.
 
@@ -131,6 +117,7 @@ class RowObservation:
         lean: by so much more than told the camera leans to the side (roll of the driving frame, left side up), rad;
             once every few metres, else None. lean_std: 1-sigma.
         mount: how the camera is mounted, told together with `lean`.
+        agreement: of the camera with the LiDAR, whenever another trunk was asked; else None.
         source: the sensors that it was seen with. missing: what is wrong with a sensor that should have helped, in a
             sentence; empty when all is well.
         image_offset, image_heading: paper A's reading of the image's bisector: lateral deviation of the centre line
@@ -161,6 +148,7 @@ class RowObservation:
     lean: float | None = None
     lean_std: float | None = None
     mount: CameraMount | None = None
+    agreement: MountAgreement | None = None
     source: RowSource = RowSource.CAMERA
     missing: str = ""
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import StrEnum
 
-from navcore.messages.camera import CameraMount
+from navcore.messages.camera_mount import CameraMount
 from navcore.messages.sensing import FixQuality
 
 

@@ -49,3 +49,17 @@ def raised_words(f: EventFacts) -> str:
         f"The camera seems to stand {height:.2f} m high, and its settings say {told:.2f} m: what it sees is further "
         "away or nearer than it seems. Measure it, and correct the settings."
     )
+
+
+def is_turned(f: EventFacts) -> bool:
+    """It looks past the trunks that the LiDAR shows it. A warning only: the LiDAR tells where the rows are."""
+    return f.agreement is not None and f.agreement.moved
+
+
+def turned_words(f: EventFacts) -> str:
+    """By how much, to which side, and how surely."""
+    yaw, std = (f.agreement.yaw, f.agreement.yaw_std) if f.agreement else (0.0, 0.0)
+    return (
+        f"The camera looks {abs(math.degrees(yaw)):.1f} degrees (± {math.degrees(std):.1f}) further "
+        f"{'left' if yaw > 0.0 else 'right'} than the LiDAR says: a mount has moved. Fix it, and calibrate again."
+    )

@@ -5,21 +5,27 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Iterable
 
-from navcore.messages import CameraMount, CameraName, RowObservation
+from navcore.messages import CameraMount, CameraName, MountAgreement, RowObservation
 
 # Readings of four metres each that count, and without so many nothing is told.
 LATELY, LEAST = 6, 3
 
 
 class CameraTruth:
-    """Means of the newest readings of each camera; `newest` is of the one that told last."""
+    """Means of the newest readings of each camera; `newest` is of the one that told last.
+
+    `agreement` of a camera with the 2D LiDAR is the newest too, but one that has moved is not forgotten.
+    """
 
     def __init__(self) -> None:
         self._readings: dict[CameraName, deque[CameraMount]] = {}
         self.newest: CameraMount | None = None
+        self.agreement: MountAgreement | None = None
 
     def take(self, row: RowObservation) -> None:
         """One observation: most of them tell nothing."""
+        if row.agreement is not None and not (self.agreement and self.agreement.moved):
+            self.agreement = row.agreement
         if row.mount is None:
             return
         readings = self._readings.setdefault(row.camera, deque(maxlen=LATELY))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from navcore.chassis.protocol import ChassisState
-from navcore.messages import CameraMount, LinkLossPolicy, NavMode, RunState
+from navcore.messages import CameraMount, LinkLossPolicy, MountAgreement, NavMode, RunState
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -63,7 +63,7 @@ class EventFacts:
     `pose_cap_passes`: it may pass by itself. Ages are None where nothing came; `captured`: the path was reached;
     `entrance`: metres to that of a row which is driven at without being seen; `room`: metres between body and plants
     on the narrower side of a seen one that is near; `askew`: how far the camera leans to the right against the IMU,
-    and its 1-sigma, rad; `mount`: how else it is mounted.
+    and its 1-sigma, rad; `mount`: how else it is mounted; `agreement`: whether it agrees with the 2D LiDAR.
     """
 
     state: RunState
@@ -94,3 +94,4 @@ class EventFacts:
     waiting_for_gnss: bool
     askew: tuple[float, float]
     mount: CameraMount | None = None
+    agreement: MountAgreement | None = None

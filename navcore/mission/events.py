@@ -15,8 +15,10 @@ from navcore.mission.camera_events import (
     is_askew,
     is_pitched,
     is_raised,
+    is_turned,
     pitched_words,
     raised_words,
+    turned_words,
 )
 from navcore.mission.event_facts import EventFacts, EventParams
 from navcore.mission.state_machine import MOVING, UNDER_WAY, Effect
@@ -198,6 +200,7 @@ EVENTS: tuple[Event, ...] = (
         askew_words,
     ),
     _event("camera_pitched", "WARN", lambda f, p: f.state in UNDER_WAY and is_pitched(f, p), pitched_words),
+    _event("camera_turned", "WARN", lambda f, _: f.state in UNDER_WAY and is_turned(f), turned_words),
     _event("camera_raised", "WARN", lambda f, p: f.state in UNDER_WAY and is_raised(f, p), raised_words),
     _event(
         "carried_too_far", "HOLD",

@@ -23,6 +23,7 @@ from navcore.perception.detector import Image
 from navcore.perception.image_lines import driving_camera
 from navcore.perception.levelling import leaning_offset, levelled
 from navcore.perception.plants.box_association import should_be_seen
+from navcore.perception.plants.mount_watch import MountWatch
 from navcore.perception.plants.odometry_trail import OdometryTrail
 from navcore.perception.plants.scan_eye import ScanEye
 from navcore.perception.plants.scanned_plants import ScannedPlants
@@ -43,6 +44,7 @@ class RowEye:
         """`cameras` tell where each is mounted in `base_link`."""
         self._perceptions, self._scan_eye = perceptions, scan_eye
         self._cameras = {name: driving_camera(camera) for name, camera in cameras.items()}
+        self._watches = {name: MountWatch(camera) for name, camera in self._cameras.items()} if scan_eye else {}
         self._last: CameraRequest | None = None
         self._trail = OdometryTrail()
 
@@ -68,7 +70,7 @@ class RowEye:
         self._tell(view, plants, camera)
         row = levelled(view.row, camera.z, request.roll)
         view = replace(view, row=replace(row, missing=row.missing or self._missing(request, plants)))
-        return view if plants is None else self._with_scan(view, request.camera)
+        return view if plants is None else self._with_scan(self._checked(view), request.camera)
 
     def _plants(self, stamp_ns: int, request: CameraRequest, scans: tuple[LidarScan, ...]) -> ScannedPlants | None:
         """Scanned plants in the driving frame, None without a LiDAR that sees.
@@ -85,6 +87,11 @@ class RowEye:
             return None
         turned = SE2(0.0, 0.0, math.pi) if request.camera is CameraName.REAR else SE2()
         return found.seen_from(turned)
+
+    def _checked(self, view: CameraView) -> CameraView:
+        """With what its trunks say of the camera's mount."""
+        agreement = self._watches[view.row.camera].see(view) if self._watches else None
+        return replace(view, row=replace(view.row, agreement=agreement)) if agreement else view
 
     def _with_scan(self, view: CameraView, camera: CameraName) -> CameraView:
         """With the ends of the newest scan's rays, for drawing: in the picture and from above."""
