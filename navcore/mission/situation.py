@@ -82,6 +82,7 @@ def event_facts(
         waiting_for_gnss=_waits_for_gnss(now),
         askew=s.attitude.mount_roll,
         mount=s.camera.newest,
+        halt=pilot.halt if pilot else "",
     )
 
 
