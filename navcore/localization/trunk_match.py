@@ -73,7 +73,7 @@ def match_trunks(
 
 def _shifts(along_std: float, p: TrunkMatchParams) -> Floats:
     count = max(math.ceil(p.reach * along_std / p.step), math.ceil(2 * p.apart / p.step))
-    return np.arange(-count, count + 1) * p.step
+    return np.arange(-count, count + 1, dtype=np.float64) * p.step
 
 
 def _scores(seen: Floats, known: Floats, shifts: Floats, p: TrunkMatchParams) -> Floats:

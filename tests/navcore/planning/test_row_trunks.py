@@ -19,8 +19,8 @@ ROW = SITE.rows[1]
 HALF = ROW.width / 2
 TRUNKS = TrunkMap(
     trunks=tuple(
-        MappedTrunk(id=f"{name}{k}", x=ROW.start[0] + side * HALF, y=k + (1.0 if name == "left" else 0.5), std=0.03, diameter=0.1)
-        for name, side in (("left", -1.0), ("right", 1.0))
+        MappedTrunk(id=f"{name}{k}", x=ROW.start[0] + side * HALF, y=first + k, std=0.03, diameter=0.1)
+        for name, side, first in (("left", -1.0, 1.0), ("right", 1.0, 0.5))
         for k in range(24)
     )
 )
