@@ -220,6 +220,7 @@ class Navigator:
             request=request,
             armed=self.senses.armed,
             arrived=bool(self.pilot and self.pilot.arrived),
+            halted=bool(self.pilot and self.pilot.halt),
         )
         after = next_state(self.state, c)
         if after is not self.state:

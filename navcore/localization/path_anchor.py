@@ -207,6 +207,11 @@ class PathAnchor:
         if self._contradictions >= p.insist and off <= p.gate * math.hypot(math.sqrt(unsure), std):
             self.var_along, self._contradictions = max(self.var_along, unsure), 0
 
+    @property
+    def along_std(self) -> float:
+        """1-sigma of the place along the row, m."""
+        return math.sqrt(self.var_along)
+
     def see_no_end(self, row: RowLine, T_odom_drive: SE2, at_most: float) -> None:
         """The row goes on, so the driving frame's row coordinate x is no larger than `at_most`, m.
 

@@ -19,13 +19,13 @@ from navcore.messages.camera import (
     ScannedPlant,
 )
 from navcore.messages.camera_mount import CameraMount, MountAgreement
-from navcore.messages.mission_plan import USUAL_WIDTH, MissionPlan, PathSegment, Point, SegmentKind
+from navcore.messages.mission_plan import USUAL_WIDTH, MissionPlan, PathSegment, PlannedTrunk, Point, SegmentKind
 from navcore.messages.recorder import RecorderStatus
 from navcore.messages.request import LinkLossPolicy, Reply, Request, RequestKind
 from navcore.messages.scan import LidarScan
 from navcore.messages.sensing import FixQuality, GnssFix, ImuSample
 from navcore.messages.simulation import SimContact, SimFarm, SimTruth, TrueRow
-from navcore.messages.status import ActiveEvent, ModeSwitch, NavMode, NavStatus, PoseEstimate, RunState
+from navcore.messages.status import ActiveEvent, ModeSwitch, NavMode, NavStatus, NextTrunk, PoseEstimate, RunState
 from navcore.messages.tick import Decision, NavInputs, NavPrelude
 
 __all__ = [
@@ -52,8 +52,10 @@ __all__ = [
     "NavMode",
     "NavPrelude",
     "NavStatus",
+    "NextTrunk",
     "ObjectKind",
     "PathSegment",
+    "PlannedTrunk",
     "Point",
     "PoseEstimate",
     "RecorderStatus",

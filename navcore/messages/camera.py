@@ -120,6 +120,7 @@ class RowObservation:
         agreement: of the camera with the LiDAR, whenever another trunk was asked; else None.
         source: the sensors that it was seen with. missing: what is wrong with a sensor that should have helped, in a
             sentence; empty when all is well.
+        plants: scanned ones on the row's two lines, nearest first, within 8 m, at most 12; none without 2D LiDAR.
         image_offset, image_heading: paper A's reading of the image's bisector: lateral deviation of the centre line
             at the look-ahead depth, m, and its angle to the image's vertical, rad; both positive to the left.
     """
@@ -151,6 +152,7 @@ class RowObservation:
     agreement: MountAgreement | None = None
     source: RowSource = RowSource.CAMERA
     missing: str = ""
+    plants: tuple[ScannedPlant, ...] = ()
 
     @property
     def in_sight(self) -> bool:

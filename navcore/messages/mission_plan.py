@@ -22,6 +22,28 @@ class SegmentKind(StrEnum):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class PlannedTrunk:
+    """A trunk of the trunk map beside a row's segment.
+
+    Attributes:
+        side: 1 left, -1 right of the segment's own direction, from `row_start` to `row_end`.
+        line: 1 left, -1 right for who looks from the site's start of the row to its end: what people call it.
+        number: 1 at the site's start of the row; `of` stand on that line.
+        along: from `row_start`, m. lateral: from the centre line, positive to the left of the segment's direction, m.
+        std: 1-sigma of its place, each way, m.
+    """
+
+    id: str
+    side: int
+    line: int
+    number: int
+    of: int
+    along: float
+    lateral: float
+    std: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class PathSegment:
     """A stretch of the path, driven one way.
 
@@ -33,6 +55,8 @@ class PathSegment:
         corridor_width: width between the lines of plants, m, where `row_id` is given.
         row_start, row_end: ends of that row's centre line as drawn, `row_start` being the end at which this
             segment's direction of driving enters it.
+        trunks: known ones on that row's two lines, on ROW segments, in the order of driving.
+        halt: at the segment's end the mission pauses and these words tell the operator why; empty: it goes on.
     """
 
     kind: SegmentKind
@@ -43,6 +67,8 @@ class PathSegment:
     corridor_width: float | None = None
     row_start: Point | None = None
     row_end: Point | None = None
+    trunks: tuple[PlannedTrunk, ...] = ()
+    halt: str = ""
 
     @property
     def width(self) -> float:

@@ -80,6 +80,26 @@ class ModeSwitch:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class NextTrunk:
+    """The known trunk that the robot comes to next in its row.
+
+    Attributes:
+        side: 1 on the left line, -1 on the right one, for who looks from the row's start on the site to its end,
+            wherever the robot drives to: it is the trunk's name.
+        number: 1 at that start; `of` stand on the line.
+        ahead: along the row, m; a little negative while the robot is beside it.
+        exact: the trunks around the robot were recognised within the last metres; else wheels and row's ends tell.
+    """
+
+    row_id: str
+    side: int
+    number: int
+    of: int
+    ahead: float
+    exact: bool
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class NavStatus:
     """What the operator sees of the navigator, 20 Hz.
 
@@ -93,6 +113,7 @@ class NavStatus:
         gnss_pose: by GNSS, wheels and gyro alone; None in older logs too.
         camera: how the camera that saw a row last is mounted; None before. camera_roll: it leans by so much to the
             right against the IMU, and its 1-sigma, rad.
+        trunk: that comes next; None outside rows and where no trunk is known.
     """
 
     stamp_ns: int
@@ -123,3 +144,4 @@ class NavStatus:
     gnss_pose: PoseEstimate | None = None
     camera: CameraMount | None = None
     camera_roll: tuple[float, float] | None = None
+    trunk: NextTrunk | None = None

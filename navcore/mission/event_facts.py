@@ -63,7 +63,8 @@ class EventFacts:
     `pose_cap_passes`: it may pass by itself. Ages are None where nothing came; `captured`: the path was reached;
     `entrance`: metres to that of a row which is driven at without being seen; `room`: metres between body and plants
     on the narrower side of a seen one that is near; `askew`: how far the camera leans to the right against the IMU,
-    and its 1-sigma, rad; `mount`: how else it is mounted; `agreement`: whether it agrees with the 2D LiDAR.
+    and its 1-sigma, rad; `mount`: how else it is mounted; `agreement`: whether it agrees with the 2D LiDAR; `halt`:
+    what the operator is told where the plan lets the robot wait.
     """
 
     state: RunState
@@ -95,3 +96,4 @@ class EventFacts:
     askew: tuple[float, float]
     mount: CameraMount | None = None
     agreement: MountAgreement | None = None
+    halt: str = ""

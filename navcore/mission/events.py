@@ -235,6 +235,7 @@ EVENTS: tuple[Event, ...] = (
         lambda f, p: f.state in MOVING and f.link_loss is LinkLossPolicy.STOP and not f.link_age_s <= p.link_s,
         "No operator's page was heard of. Open the page, then resume.",
     ),
+    _event("halt", "WARN", lambda f, _: f.state in UNDER_WAY and bool(f.halt), lambda f: f.halt),
     _event(
         "not_at_start", "NO_ENTRY",
         lambda f, p: f.start_distance is not None and not f.start_distance <= p.start_distance,

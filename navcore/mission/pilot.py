@@ -14,12 +14,14 @@ from navcore.messages import (
     MissionPlan,
     ModeSwitch,
     NavMode,
+    NextTrunk,
     PathSegment,
     RowObservation,
     RowSource,
     SegmentKind,
 )
 from navcore.mission.along_row import AlongRow
+from navcore.mission.along_trunks import AlongTrunks
 from navcore.mission.evidence import NO_IDEA, Doubt, RowEvidence
 from navcore.mission.look_back import LeftRow, LookBack
 from navcore.mission.mode_selector import ALONG_ROW, CARRIED, ON_CAMERA, ModeFacts, select_mode, start_reason
@@ -38,8 +40,10 @@ class Pilot:
         self.row = RowEvidence(params.row)
         self.look_back = LookBack(self.anchor, params.row)
         self._along = AlongRow(self.anchor, params.along)
+        self._trunks = AlongTrunks(self.anchor, params.trunks)
         self.carried = 0.0
         self.arrived = self.captured = False
+        self.halt = ""
         self._comes_from_gnss = True
         self._at = start
         self.place = Place(0, 0.0)
@@ -105,6 +109,7 @@ class Pilot:
         """The robot sets off from standstill: take the wanted tie at once, and let it get onto the path."""
         self.anchor.jump()
         self.captured = False
+        self.halt = ""
 
     def driving_pose(self, T_x_base: SE2) -> SE2:
         """Pose of the driving frame: turned by pi on a leg that is driven backwards."""
@@ -156,6 +161,7 @@ class Pilot:
         if self.mode in ALONG_ROW:
             at_end = self.mode is NavMode.ROW_END
             self._along.see(seen, row, T_odom_drive, row_length(segment), at_end=at_end)
+            self._trunks.see(seen, segment, T_odom_drive)
 
     def _turned_to_row(self, row: RowLine, T_odom_drive: SE2) -> bool:
         """Before the next row and turned to it: seen so, it puts right what the wheels got wrong in the turn."""
@@ -185,10 +191,12 @@ class Pilot:
         if self.route.at_end(self.place):
             self.arrived = True
             return
+        self.halt = self.leg.segments[-1].halt
         self.place = Place(self.place.leg + 1, 0.0)
         self.pose = self.anchor.followed @ self.driving_pose(at.T_odom_base)
         self.projection = self._project(near_s=0.0)
         self.row.forget()
+        self._trunks.forget()
         self.look_back.row = LeftRow.of(self.row_segment())
 
     def _look_out(self) -> None:
@@ -212,6 +220,8 @@ class Pilot:
         )  # fmt: skip
 
     def _on_switch(self) -> None:
+        if self.mode not in ALONG_ROW:
+            self._trunks.forget()
         if self.mode is NavMode.ROW:
             self.look_back.row = LeftRow.of(self.row_segment())
         if self.mode is NavMode.GNSS_PATH:
@@ -225,6 +235,10 @@ class Pilot:
     def row_segment(self) -> PathSegment | None:
         """The segment whose row matters here: this one's, or the next entry's when it is near."""
         return self.leg.row_segment(self.place.s, self.params.look_out)
+
+    def next_trunk(self) -> NextTrunk | None:
+        """The known trunk that the robot comes to next in its row."""
+        return self._trunks.next_trunk(self.segment, self.pose) if self.mode in ALONG_ROW else None
 
     def row_line(self) -> RowLine | None:
         """Centre line of the row that matters here, as drawn."""

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 
 from navcore.localization.path_anchor import PathAnchorParams
 from navcore.mission.along_row import AlongRowParams
+from navcore.mission.along_trunks import AlongTrunksParams
 from navcore.mission.evidence import RowEvidenceParams
 from navcore.mission.mode_selector import ModeSelectorParams
 
@@ -35,5 +36,6 @@ class PilotParams:
     scanned_share: float = 0.03
     anchor: PathAnchorParams = field(default_factory=PathAnchorParams)
     along: AlongRowParams = field(default_factory=AlongRowParams)
+    trunks: AlongTrunksParams = field(default_factory=AlongTrunksParams)
     row: RowEvidenceParams = field(default_factory=RowEvidenceParams)
     mode: ModeSelectorParams = field(default_factory=ModeSelectorParams)

@@ -83,6 +83,7 @@ def event_facts(
         askew=s.attitude.mount_roll,
         mount=s.camera.newest,
         agreement=s.camera.agreement,
+        halt=pilot.halt if pilot else "",
     )
 
 

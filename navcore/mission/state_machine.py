@@ -31,12 +31,14 @@ class Circumstances:
         request: the operator's newest request that was accepted, None without one.
         armed: the guard lets motion out and the chassis obeys CAN.
         arrived: the last leg is driven to its end.
+        halted: the plan lets the robot wait here for the operator.
     """
 
     effects: frozenset[Effect]
     request: RequestKind | None
     armed: bool
     arrived: bool
+    halted: bool = False
 
 
 def next_state(state: RunState, c: Circumstances) -> RunState:
@@ -69,6 +71,8 @@ def _on_request(state: RunState, request: RequestKind) -> RunState:
 def _under_way(c: Circumstances) -> RunState:
     if c.arrived:
         return RunState.FINISHED
+    if c.halted:
+        return RunState.PAUSED
     return RunState.HOLDING if Effect.HOLD in c.effects else RunState.DRIVING
 
 

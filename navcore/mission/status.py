@@ -75,4 +75,5 @@ def nav_status(now: Situation, now_ns: int, events: ActiveEvents) -> NavStatus:
         gnss_pose=s.pose,
         camera=s.camera.newest,
         camera_roll=s.attitude.mount_roll,
+        trunk=pilot.next_trunk() if pilot else None,
     )

@@ -27,6 +27,9 @@ from navcore.perception.row_bands import row_band
 from navcore.perception.row_lines import GroundRow, RowLines
 from navcore.perception.row_odometry import Driven
 
+# Of a row's scanned plants no more are told, and none further away, m.
+_MOST_PLANTS, _PLANTS_WITHIN = 12, 8.0
+
 
 def row_observation(
     stamp_ns: int, name: CameraName, lines: RowLines, ground: GroundRow | str, end: float | None,
@@ -70,6 +73,12 @@ def scanned_plants(
         )
         for k, (n, (x, y), d, p, s) in enumerate(rows)
     )
+
+
+def plants_of_row(plants: tuple[ScannedPlant, ...]) -> tuple[ScannedPlant, ...]:
+    """Those on the row's two lines that are near enough to tell where along the row the robot is, nearest first."""
+    near = [plant for plant in plants if plant.side and math.hypot(plant.x, plant.y) <= _PLANTS_WITHIN]
+    return tuple(sorted(near, key=lambda plant: math.hypot(plant.x, plant.y))[:_MOST_PLANTS])
 
 
 def camera_view(

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from navcore.geometry.pinhole import PinholeCamera
 from navcore.geometry.se2 import SE2
 from navcore.messages import CameraName, CameraView, DetectedObject, RowSource
-from navcore.perception.camera_view import camera_view, row_observation, scanned_plants
+from navcore.perception.camera_view import camera_view, plants_of_row, row_observation, scanned_plants
 from navcore.perception.corner_points import CornerPoints, corner_points
 from navcore.perception.corridor_fit import SURE
 from navcore.perception.corridor_track import CorridorTrackerParams
@@ -153,7 +153,8 @@ class RowPerception:
         )  # fmt: skip
         bearings = np.arctan(slopes(corners_of(seen.objects), self._camera, 0.0)) if seen.scan else np.empty(0)
         plants_seen = scanned_plants(seen.plants, lines.plant_sides, seen.found)
-        return replace(view, plants=plants_seen, bearings=tuple(bearings.tolist()), camera_x=self._camera.x)
+        row = replace(row, plants=plants_of_row(plants_seen) if row.in_sight else ())
+        return replace(view, row=row, plants=plants_seen, bearings=tuple(bearings.tolist()), camera_x=self._camera.x)
 
     def _look(self, image: Image | None, plants: ScannedPlants, prior: RowPrior | None) -> Look:
         fault = self._fault(image) if image is not None else "the camera gives no picture"

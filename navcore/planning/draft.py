@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from itertools import groupby
 
 import numpy as np
 from numpy.typing import NDArray
 
-from navcore.messages import PathSegment, SegmentKind
+from navcore.messages import PathSegment, PlannedTrunk, SegmentKind
 from navcore.planning.driven_row import DrivenRow
 from navcore.planning.free_space import PLANTS, FreeSpace
 from navcore.planning.params import PlanningParams
@@ -37,7 +38,7 @@ class Draft:
 
     def add(
         self, kind: SegmentKind, poses: Floats, speeds: float | Floats, *, reverse: bool = False,
-        row: DrivenRow | None = None,
+        row: DrivenRow | None = None, trunks: tuple[PlannedTrunk, ...] = (), halt: str = "",
     ) -> None:  # fmt: skip
         """Append a stretch along poses (N, 3); `row` as driven in this segment's direction of motion."""
         kept = _spaced(poses)
@@ -50,6 +51,7 @@ class Draft:
                 kind=kind, points=_pairs(poses), speeds=tuple(wanted.tolist()), reverse=reverse,
                 row_id=row.row.id if row else None, corridor_width=row.row.width if row else None,
                 row_start=row.entrance if row else None, row_end=row.far_end if row else None,
+                trunks=trunks, halt=halt,
             )
         )  # fmt: skip
 
@@ -113,8 +115,4 @@ def _pairs(poses: Floats) -> tuple[tuple[float, float], ...]:
 
 
 def _with_speeds(segment: PathSegment, speeds: Floats) -> PathSegment:
-    return PathSegment(
-        kind=segment.kind, points=segment.points, speeds=tuple(speeds.tolist()), reverse=segment.reverse,
-        row_id=segment.row_id, corridor_width=segment.corridor_width,
-        row_start=segment.row_start, row_end=segment.row_end,
-    )  # fmt: skip
+    return replace(segment, speeds=tuple(speeds.tolist()))

@@ -10,6 +10,7 @@ from navcore.errors import MissionError
 from navcore.geometry.se2 import SE2
 from navcore.maps.mission import Mission, RowExit, RowVisit, Waypoint
 from navcore.maps.site_map import SiteMap, ZoneKind
+from navcore.maps.trunk_map import TrunkMap
 from navcore.messages import MissionPlan, SegmentKind
 from navcore.planning.connection import Option
 from navcore.planning.departures import Departure, backwards_out, from_parking, through_the_end
@@ -22,6 +23,7 @@ from navcore.planning.params import PlanningParams
 from navcore.planning.road import Road, add_road
 from navcore.planning.row_entry import entry_options
 from navcore.planning.row_mission import mission_for_row, way_between
+from navcore.planning.row_trunks import planned_trunks, stop_of, stop_problems
 from navcore.vehicle import VehicleParams
 
 __all__ = ["draft_mission", "mission_for_row", "plan_mission"]
@@ -31,23 +33,26 @@ _PARKED_ASKEW = 25.0
 
 
 def plan_mission(
-    site: SiteMap, mission: Mission, vehicle: VehicleParams, params: PlanningParams = PlanningParams()
-) -> MissionPlan:
+    site: SiteMap, mission: Mission, vehicle: VehicleParams, params: PlanningParams = PlanningParams(),
+    trunks: TrunkMap = TrunkMap(),
+) -> MissionPlan:  # fmt: skip
     """The path of a mission. Raises MissionError with every reason why it cannot be driven."""
-    plan, problems = draft_mission(site, mission, vehicle, params)
+    plan, problems = draft_mission(site, mission, vehicle, params, trunks)
     if plan is None or problems:
         raise MissionError(problems)
     return plan
 
 
 def draft_mission(
-    site: SiteMap, mission: Mission, vehicle: VehicleParams, params: PlanningParams = PlanningParams()
-) -> tuple[MissionPlan | None, tuple[str, ...]]:
+    site: SiteMap, mission: Mission, vehicle: VehicleParams, params: PlanningParams = PlanningParams(),
+    trunks: TrunkMap = TrunkMap(),
+) -> tuple[MissionPlan | None, tuple[str, ...]]:  # fmt: skip
     """The path as far as it can be drawn, and every reason why it must not be driven."""
     problems = input_problems(site, mission, vehicle, params)
+    problems += tuple(stop_problems(site, mission, trunks, params))
     if problems:
         return None, problems
-    planner = _Planner(site, mission, vehicle, params)
+    planner = _Planner(site, mission, vehicle, params, trunks)
     planner.run()
     return planner.plan(), tuple(dict.fromkeys(planner.draft.problems))
 
@@ -55,8 +60,10 @@ def draft_mission(
 class _Planner:
     """Walks through the mission once and drafts its path."""
 
-    def __init__(self, site: SiteMap, mission: Mission, vehicle: VehicleParams, params: PlanningParams) -> None:
-        self._site, self._mission, self._params = site, mission, params
+    def __init__(
+        self, site: SiteMap, mission: Mission, vehicle: VehicleParams, params: PlanningParams, trunks: TrunkMap
+    ) -> None:
+        self._site, self._mission, self._params, self._trunks = site, mission, params, trunks
         self._space = FreeSpace(site, vehicle, params)
         self.draft = Draft(self._space, vehicle, params)
         self._number = 1
@@ -153,17 +160,20 @@ class _Planner:
             self.draft.check(departures[0].parts[0].poses, f"leaving row {_name(row)}")
         return departures, None, self._between(departures, following)
 
-    def _drive_row(self, row: DrivenRow, until: float, speed: float) -> None:
+    def _drive_row(self, row: DrivenRow, until: float, speed: float, halt: str = "") -> None:
         poses = row.line(min(self._params.entry_inside, row.length / 2), until, self._params.step)
         self.draft.check(poses, f"in row {_name(row)}")
-        self.draft.add(SegmentKind.ROW, poses, speed, row=row)
+        trunks = planned_trunks(self._trunks, row)
+        self.draft.add(SegmentKind.ROW, poses, speed, row=row, trunks=trunks, halt=halt)
 
     def _drive_in_and_back(self, row: DrivenRow, visit: RowVisit) -> list[Departure]:
         p = self._params
-        self._drive_row(row, row.length - p.reverse_stop, visit.speed)
+        turn, halt = stop_of(self._trunks, row, visit) or (row.length - p.reverse_stop, "")
+        self._drive_row(row, turn, visit.speed, halt)
         back = row.reversed()
-        until = back.length - min(p.exit_inside, back.length / 2)
-        self.draft.add(SegmentKind.ROW, back.line(p.reverse_stop, until, p.step), visit.speed, reverse=True, row=back)
+        poses = back.line(back.length - turn, back.length - min(p.exit_inside, back.length / 2), p.step)
+        trunks = planned_trunks(self._trunks, back)
+        self.draft.add(SegmentKind.ROW, poses, visit.speed, reverse=True, row=back, trunks=trunks)
         departures = backwards_out(row, self._space, p)
         self.draft.check(departures[0].parts[0].poses, f"leaving row {_name(row)} in reverse")
         return departures

@@ -11,6 +11,7 @@ import pytest
 from navcore.config import RobotConfig
 from navcore.maps.mission import Mission
 from navcore.maps.site_map import Datum, Lane, Row, SiteMap, Warehouse
+from navcore.maps.trunk_map import TrunkMap
 from navcore.messages import ModeSwitch, NavMode, Request, RequestKind, RunState
 from navcore.planning.mission_planner import plan_mission
 from navcore.runtime.lockstep import Lockstep, Tick
@@ -50,9 +51,9 @@ class Drive:
     lockstep: Lockstep
     ticks: list[Tick] = field(default_factory=list)
 
-    def start(self, site: SiteMap, mission: Mission) -> Tick:
+    def start(self, site: SiteMap, mission: Mission, trunks: TrunkMap = TrunkMap()) -> Tick:
         """Wait for the first position, then start; the tick after the request."""
-        plan = plan_mission(site, mission, PAPER_A)
+        plan = plan_mission(site, mission, PAPER_A, trunks=trunks)
         self.until(lambda tick: tick.decision.status.pose is not None, seconds=4)
         self.until(lambda _: False, seconds=2)
         request = Request(kind=RequestKind.START, request_id="start", run_id="run", plan=plan)

@@ -1143,6 +1143,7 @@ export interface components {
          *         gnss_pose: by GNSS, wheels and gyro alone; None in older logs too.
          *         camera: how the camera that saw a row last is mounted; None before. camera_roll: it leans by so much to the
          *             right against the IMU, and its 1-sigma, rad.
+         *         trunk: that comes next; None outside rows and where no trunk is known.
          */
         NavStatus: {
             /** Battery V */
@@ -1199,8 +1200,34 @@ export interface components {
              * @default
              */
             stop_reason: string;
+            trunk?: components["schemas"]["NextTrunk"] | null;
             /** V */
             v: number;
+        };
+        /**
+         * NextTrunk
+         * @description The known trunk that the robot comes to next in its row.
+         *
+         *     Attributes:
+         *         side: 1 on the left line, -1 on the right one, for who looks from the row's start on the site to its end,
+         *             wherever the robot drives to: it is the trunk's name.
+         *         number: 1 at that start; `of` stand on the line.
+         *         ahead: along the row, m; a little negative while the robot is beside it.
+         *         exact: the trunks around the robot were recognised within the last metres; else wheels and row's ends tell.
+         */
+        NextTrunk: {
+            /** Ahead */
+            ahead: number;
+            /** Exact */
+            exact: boolean;
+            /** Number */
+            number: number;
+            /** Of */
+            of: number;
+            /** Row Id */
+            row_id: string;
+            /** Side */
+            side: number;
         };
         /**
          * Nonce
@@ -1282,10 +1309,17 @@ export interface components {
          *         corridor_width: width between the lines of plants, m, where `row_id` is given.
          *         row_start, row_end: ends of that row's centre line as drawn, `row_start` being the end at which this
          *             segment's direction of driving enters it.
+         *         trunks: known ones on that row's two lines, on ROW segments, in the order of driving.
+         *         halt: at the segment's end the mission pauses and these words tell the operator why; empty: it goes on.
          */
         PathSegment: {
             /** Corridor Width */
             corridor_width?: number | null;
+            /**
+             * Halt
+             * @default
+             */
+            halt: string;
             kind: components["schemas"]["SegmentKind"];
             /** Points */
             points: [
@@ -1311,6 +1345,40 @@ export interface components {
             ] | null;
             /** Speeds */
             speeds: number[];
+            /**
+             * Trunks
+             * @default []
+             */
+            trunks: components["schemas"]["PlannedTrunk"][];
+        };
+        /**
+         * PlannedTrunk
+         * @description A trunk of the trunk map beside a row's segment.
+         *
+         *     Attributes:
+         *         side: 1 left, -1 right of the segment's own direction, from `row_start` to `row_end`.
+         *         line: 1 left, -1 right for who looks from the site's start of the row to its end: what people call it.
+         *         number: 1 at the site's start of the row; `of` stand on that line.
+         *         along: from `row_start`, m. lateral: from the centre line, positive to the left of the segment's direction, m.
+         *         std: 1-sigma of its place, each way, m.
+         */
+        PlannedTrunk: {
+            /** Along */
+            along: number;
+            /** Id */
+            id: string;
+            /** Lateral */
+            lateral: number;
+            /** Line */
+            line: number;
+            /** Number */
+            number: number;
+            /** Of */
+            of: number;
+            /** Side */
+            side: number;
+            /** Std */
+            std: number;
         };
         /**
          * Plant
@@ -1522,6 +1590,7 @@ export interface components {
          *         mount: how the camera is mounted, told together with `lean`.
          *         source: the sensors that it was seen with. missing: what is wrong with a sensor that should have helped, in a
          *             sentence; empty when all is well.
+         *         plants: scanned ones on the row's two lines, nearest first, within 8 m, at most 12; none without 2D LiDAR.
          *         image_offset, image_heading: paper A's reading of the image's bisector: lateral deviation of the centre line
          *             at the look-ahead depth, m, and its angle to the image's vertical, rad; both positive to the left.
          */
@@ -1576,6 +1645,11 @@ export interface components {
             /** Offset Std */
             offset_std?: number | null;
             /**
+             * Plants
+             * @default []
+             */
+            plants: components["schemas"]["ScannedPlant"][];
+            /**
              * Quality
              * @default 0
              */
@@ -1613,6 +1687,8 @@ export interface components {
          *         exit: NEXT_ROW changes to the next visit by a headland turn; REVERSE drives back out by the rear camera;
          *             THROUGH leaves at the far end onto the inbound waypoints.
          *         speed: m/s in the row.
+         *         stop_at: id of a trunk of the site's trunk map beside which the robot stops and waits for the operator; it
+         *             drives no further into the row, and leaves it in reverse. None: the whole row.
          */
         RowVisit: {
             /** @default reverse */
@@ -1629,6 +1705,8 @@ export interface components {
              * @default 0.6
              */
             speed: number;
+            /** Stop At */
+            stop_at?: string | null;
         };
         /**
          * RunDetail

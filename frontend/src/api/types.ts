@@ -17,6 +17,7 @@ export type MissionPlan = S["MissionPlan"];
 export type ModeSwitch = S["ModeSwitch"];
 export type NavMode = S["NavMode"];
 export type NavStatus = S["NavStatus"];
+export type NextTrunk = S["NextTrunk"];
 export type OrthophotoInfo = S["OrthophotoInfo"];
 export type PathSegment = S["PathSegment"];
 export type Preview = S["Preview"];

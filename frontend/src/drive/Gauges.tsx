@@ -4,6 +4,7 @@ import type { NavStatus } from "../api/types";
 import { useFresh, useTopic } from "../live/hooks";
 import { accuracy, centimetres, degrees, duration, metres, percent, seconds, speed, volts } from "../ui/format";
 import { type Tone, fixWords, positionSigma } from "../ui/words";
+import { trunkName, trunkNote } from "../ui/trunk";
 import css from "./drive.module.css";
 
 /** Battery levels of the Scout 2.0 manual: warning and under-voltage, V. */
@@ -26,6 +27,7 @@ export function Gauges() {
       <Gauge name="Guard" value={s?.guard ?? "–"} note={s?.guard_reason} tone={s?.guard === "latched" ? "bad" : undefined} />
       <Gauge name="Camera" value={s?.camera ? `${centimetres(s.camera.height)} high` : "–"} note={s ? cameraNote(s) : ""} />
       <RowSensors />
+      <Gauge name="Trunk" value={s?.trunk ? trunkName(s.trunk) : "–"} note={s?.trunk ? trunkNote(s.trunk) : "in mapped rows only"} />
       <Gauge name="Mission" value={percent(s?.run_id ? s.progress : null)} note={s?.run_id ? `${metres(s.remaining)} to go` : ""} />
       <Gauge name="Time left" value={duration(s ? timeLeft(s) : null)} />
     </div>

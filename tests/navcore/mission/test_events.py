@@ -61,6 +61,7 @@ FAULTS: dict[str, dict[str, Any]] = {
     "no_progress": {"stuck": True},
     "zone": {"zone": "A keep-out zone is ahead."},
     "link_lost": {"link_age_s": 6.0},
+    "halt": {"state": RunState.PAUSED, "halt": "At row 7, left trunk 30 of 52. Resume to go on."},
     "not_at_start": {"start_distance": 12.0},
 }
 

@@ -80,3 +80,10 @@ def test_after_a_stop_nothing_moves_until_asked(
             return
         state = next_state(state, circumstances(effects, request, armed, arrived))
         assert state not in MOVING
+
+
+@pytest.mark.parametrize("state", [RunState.DRIVING, RunState.HOLDING])
+def test_robot_waits_for_the_operator_where_the_plan_says_so(state: RunState) -> None:
+    halted = Circumstances(effects=frozenset(), request=None, armed=True, arrived=False, halted=True)
+    assert next_state(state, halted) is RunState.PAUSED
+    assert next_state(RunState.PAUSED, halted) is RunState.PAUSED
