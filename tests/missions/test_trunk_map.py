@@ -28,9 +28,10 @@ def test_robot_maps_the_trunks_of_a_row_that_it_drives_in_and_out(farm: SiteMap)
     true = _true(drive, drive.lockstep.world.site.row("r1"))
     places = np.array([(t.along, t.lateral) for t in mapped])
     shift = whole_shift(places, true[:, :2], 1.0)  # the row as drawn lies up to that far beside the true one, m
-    distance, nearest = KDTree(true[:, :2]).query(places + (shift.x, shift.y))
+    places += np.array((shift.x, shift.y))
+    distance, nearest = map(np.asarray, KDTree(true[:, :2]).query(places))
     found = distance < 0.4  # m
-    error = (places + (shift.x, shift.y) - true[nearest, :2])[found]
+    error = (places - true[nearest, :2])[found]
     assert len(set(nearest[found])) >= 0.95 * len(true)
     assert (~found).sum() <= 3  # weeds and stakes that stand like trunks
     assert math.sqrt(float(np.mean(error[:, 0] ** 2))) < 0.12  # m, along: how far apart they stand, after 25 m
@@ -54,7 +55,7 @@ def _true(drive: Drive, row: Row) -> NDArray[np.float64]:
     along, across = (stands[:, :2] - row.start) @ u, (stands[:, :2] - row.start) @ (-u[1], u[0])
     beside = np.abs(np.abs(across) - row.width / 2.0) < 0.6
     on = beside & (along > -0.5) & (along < math.dist(row.start, row.end) + 0.5)
-    return np.column_stack((along, across, 2.0 * stands[:, 4]))[on]
+    return np.asarray(np.column_stack((along, across, 2.0 * stands[:, 4]))[on])
 
 
 def _assert_ids_are_the_runs(mapped: tuple[RowTrunk, ...]) -> None:

@@ -24,7 +24,7 @@ def line(places: list[float], prefix: str, std: float = 0.05) -> TrunkMap:
 
 def scattered(seed: int) -> list[float]:
     """About 1.5 m apart, as people plant."""
-    return (1.5 * np.arange(20) + np.random.default_rng(seed).normal(0.0, 0.1, 20)).tolist()
+    return list(map(float, 1.5 * np.arange(20) + np.random.default_rng(seed).normal(0.0, 0.1, 20)))
 
 
 def moved(trunk_map: TrunkMap, x: float, y: float) -> TrunkMap:
