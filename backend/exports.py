@@ -29,6 +29,10 @@ class ExportStore:
         """File with the JSON of `RunTrack`. Raises LogError."""
         return self._exported(log, "track")
 
+    def trunks(self, log: Path) -> Path:
+        """File with the JSON of the `TrunkMap` that the run saw. Raises LogError."""
+        return self._exported(log, "trunks")
+
     def _exported(self, log: Path, form: str) -> Path:
         target = log.with_suffix(f".{form}")
         with self._one_export:

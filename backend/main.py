@@ -13,11 +13,22 @@ from backend import errors, permissions
 from backend.body_limits import BodyLimit
 from backend.gate import Gate
 from backend.headers import SecurityHeaders
-from backend.routes import frontend, live, missions, orthophotos, robot, runs, scene, session, sites
+from backend.routes import frontend, live, missions, orthophotos, robot, runs, scene, session, sites, trunks
 from backend.settings import Settings
 from backend.station import Station, open_station
 
-ROOMS = (session, sites, orthophotos, missions, robot, runs, live, scene, frontend)  # the last one takes what is left
+ROOMS = (
+    session,
+    sites,
+    trunks,
+    orthophotos,
+    missions,
+    robot,
+    runs,
+    live,
+    scene,
+    frontend,
+)  # the last one takes what is left
 
 
 def create_app(settings: Settings) -> FastAPI:

@@ -71,6 +71,17 @@ class Site(Base):
     __mapper_args__ = {"version_id_col": version}  # noqa: RUF012
 
 
+class TrunkMap(Base):
+    """The trunks of a site. `document` is navcore's `TrunkMap`; `run_ids` are the runs in it, parted by spaces."""
+
+    __tablename__ = "trunk_map"
+
+    site_id: Mapped[str] = mapped_column(String(16), ForeignKey("site.id", ondelete="CASCADE"), primary_key=True)
+    document: Mapped[bytes]
+    run_ids: Mapped[str]
+    updated: Mapped[datetime]
+
+
 class Mission(Base):
     """A mission of a site. `document` is a `navcore.maps.mission.Mission`."""
 

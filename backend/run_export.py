@@ -12,8 +12,13 @@ from pathlib import Path
 from backend.disk import write_durably
 from backend.run_track import read_track
 from navcore.errors import InputError
+from navcore.mapping.trunks_seen import trunks_seen
+from navcore.maps.site_map import SiteMap
+from navcore.maps.trunk_map import TrunkMap
 from navcore.promptness import stand_back
 from navcore.recording.export import RunExport
+from navcore.recording.reader import read_metadata
+from navcore.transport.codec import decode, encode
 
 UNREADABLE = 3
 
@@ -32,12 +37,20 @@ def main() -> int:
 
 
 def render(log: Path, form: str) -> str:
-    """A log as "csv", "geojson", "gpx" or "track" (JSON of `RunTrack`). Raises InputError."""
+    """A log as "csv", "geojson", "gpx", "track" (JSON of `RunTrack`) or "trunks" (`TrunkMap`). Raises InputError."""
     if form == "track":
         return read_track(log).model_dump_json()
+    if form == "trunks":
+        return encode(_trunks(log)).decode()
     export = RunExport(log)
     forms = {"csv": export.csv, "geojson": export.geojson, "gpx": export.gpx}
     return forms[form]()
+
+
+def _trunks(log: Path) -> TrunkMap:
+    """On the rows that the run was started with."""
+    site = read_metadata(log).get("site")
+    return trunks_seen(log, decode(SiteMap, site.encode()).rows) if site else TrunkMap()
 
 
 if __name__ == "__main__":

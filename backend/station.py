@@ -23,6 +23,7 @@ from backend.picture_store import PictureStore
 from backend.recorder import RecorderClient
 from backend.robot import RobotView
 from backend.run_end import RunEnd
+from backend.run_mapper import RunMapper
 from backend.run_starter import RunStarter
 from backend.run_watcher import RunWatcher
 from backend.runs import RunStore
@@ -31,6 +32,7 @@ from backend.settings import Settings
 from backend.sites import SiteStore
 from backend.stopper import Stopper
 from backend.supervisor import SupervisorClient
+from backend.trunk_maps import TrunkMapStore
 from navcore.transport.endpoints import Endpoints
 from navcore.vehicle import PROFILES, VehicleParams
 
@@ -55,6 +57,8 @@ class Station:
     stopper: Stopper
     nonces: NonceBook
     exports: ExportStore
+    trunk_maps: TrunkMapStore
+    mapper: RunMapper
     watcher: RunWatcher
     heartbeat: HeartbeatTeller
     scene: SceneProcess
@@ -87,7 +91,9 @@ def open_station(settings: Settings) -> Station:
     recorder, supervisor = RecorderClient(endpoints), SupervisorClient(endpoints, settings.data_dir / "robot")
     robot = RobotView(settings, hub, supervisor)
     stopper = Stopper(endpoints, told_to_stop)
-    watcher = RunWatcher(endpoints, runs, hub.put, RunEnd(recorder).finish)
+    exports, trunk_maps = ExportStore(), TrunkMapStore(database)
+    mapper = RunMapper(runs, exports, trunk_maps)
+    watcher = RunWatcher(endpoints, runs, hub.put, RunEnd(recorder, mapper.map_ended).finish)
     heartbeat = HeartbeatTeller(told_alive, lambda: hub.operators(settings.operator_timeout_s))
     scene = SceneProcess(settings)
     clients = (navigator, told_to_stop, told_alive, recorder, supervisor, database)
@@ -107,7 +113,9 @@ def open_station(settings: Settings) -> Station:
         starter=RunStarter(settings, database, runs, audit, navigator, recorder, robot),
         stopper=stopper,
         nonces=NonceBook(),
-        exports=ExportStore(),
+        exports=exports,
+        trunk_maps=trunk_maps,
+        mapper=mapper,
         watcher=watcher,
         heartbeat=heartbeat,
         scene=scene,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Body, Response
@@ -18,8 +19,9 @@ from backend.schemas import (
     RowMissionRequest,
 )
 from backend.site_files import check_text
+from backend.trunk_maps import trunk_name
 from navcore.maps import geojson
-from navcore.maps.mission import Mission
+from navcore.maps.mission import Mission, RowExit
 from navcore.planning.mission_planner import mission_for_row
 
 router = APIRouter(prefix="/api", tags=["missions"], responses=ERRORS)
@@ -40,8 +42,14 @@ def create_mission(station: TheStation, site_id: PathId, body: MissionCreate) ->
 
 @router.post("/sites/{site_id}/missions/for-row")
 def row_mission(station: TheStation, site_id: PathId, body: RowMissionRequest) -> Mission:
-    """The whole mission to a row and back along the lanes; not saved."""
-    return mission_for_row(station.sites.get(site_id).site, body.row_id, body.exit)
+    """The whole mission to a row, or to a trunk in it, and back along the lanes; not saved."""
+    site = station.sites.get(site_id).site
+    if body.stop_at is None:
+        return mission_for_row(site, body.row_id, body.exit)
+    name = trunk_name(station.trunk_maps.get(site_id)[0], site, body.row_id, body.stop_at)
+    mission = mission_for_row(site, body.row_id, RowExit.REVERSE)
+    visits = tuple(replace(visit, stop_at=body.stop_at) for visit in mission.visits)
+    return replace(mission, name=f"{mission.name}, {name}", visits=visits)
 
 
 @router.post("/sites/{site_id}/missions/import", status_code=201)

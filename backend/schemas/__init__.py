@@ -19,6 +19,7 @@ from backend.schemas.robot import Robot, RobotSite
 from backend.schemas.runs import LogFormat, RunDetail, RunDocument, RunEventDocument, RunOutcome, RunTrack
 from backend.schemas.session import Invitation, SessionDocument
 from backend.schemas.sites import ImportedSite, OrthophotoInfo, SiteCreate, SiteDocument, SiteEdit, SiteSummary
+from backend.schemas.trunks import TrunkAddress, TrunkDocument, TrunkMapDocument, TrunksMapped
 
 __all__ = [
     "ActionResult",
@@ -57,4 +58,8 @@ __all__ = [
     "SiteEdit",
     "SiteSummary",
     "StopResult",
+    "TrunkAddress",
+    "TrunkDocument",
+    "TrunkMapDocument",
+    "TrunksMapped",
 ]

@@ -36,10 +36,11 @@ class MissionEdit(Received):
 
 
 class RowMissionRequest(Received):
-    """One click on a row."""
+    """One click on a row, or on a trunk of it (`stop_at`): from there the robot leaves in reverse."""
 
     row_id: str = Field(max_length=200)
     exit: RowExit = RowExit.REVERSE
+    stop_at: str | None = Field(default=None, max_length=200)
 
 
 class PreviewRequest(Received):

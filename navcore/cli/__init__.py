@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import typer
 
-from navcore.cli import dataset, decode_rplidar, evaluate, export, replay, report, run, score, see, train
+from navcore.cli import dataset, decode_rplidar, evaluate, export, replay, report, run, score, see, train, trunks
 from navcore.cli.bench import bench_app
 from navcore.cli.calibrate import calibrate_app
 from navcore.cli.decode import decode_app
@@ -25,6 +25,7 @@ replay.register(app)
 see.register(app)
 score.register(app)
 report.register(app)
+trunks.register(app)
 
 
 @app.callback()

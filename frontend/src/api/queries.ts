@@ -2,7 +2,7 @@
 import { keepPreviousData, queryOptions } from "@tanstack/react-query";
 
 import { get, post } from "./client";
-import type { Job, Mission, MissionDocument, Preview, Robot, RunDetail, RunDocument, RunTrack, SiteDocument, SiteSummary } from "./types";
+import type { Job, Mission, MissionDocument, Preview, Robot, RunDetail, RunDocument, RunTrack, SiteDocument, SiteSummary, TrunkMap } from "./types";
 
 export const sitesQuery = queryOptions({ queryKey: ["sites"], queryFn: ({ signal }) => get<SiteSummary[]>("/api/sites", signal) });
 
@@ -19,6 +19,9 @@ export const missionsQuery = (siteId: string | null | undefined) =>
     queryFn: ({ signal }) => get<MissionDocument[]>(`/api/sites/${siteId}/missions`, signal),
     enabled: Boolean(siteId),
   });
+
+export const trunksQuery = (siteId: string) =>
+  queryOptions({ queryKey: ["trunks", siteId], queryFn: ({ signal }) => get<TrunkMap>(`/api/sites/${siteId}/trunks`, signal) });
 
 /** The plan that would be driven. `revision` makes a changed site count as a changed question. */
 export const previewQuery = (siteId: string | undefined, mission: Mission | null, revision: number) =>

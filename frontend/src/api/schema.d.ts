@@ -316,6 +316,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/runs/{run_id}/trunks": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Map Trunks
+         * @description Take what a run saw into its site's trunk map; each run counts once.
+         */
+        post: operations["map_trunks_api_runs__run_id__trunks_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/session": {
         parameters: {
             query?: never;
@@ -503,7 +523,7 @@ export interface paths {
         put?: never;
         /**
          * Row Mission
-         * @description The whole mission to a row and back along the lanes; not saved.
+         * @description The whole mission to a row, or to a trunk in it, and back along the lanes; not saved.
          */
         post: operations["row_mission_api_sites__site_id__missions_for_row_post"];
         delete?: never;
@@ -584,6 +604,70 @@ export interface paths {
          * @description A map tile, 256 px, EPSG:3857 XYZ, transparent outside of the picture.
          */
         get: operations["tile_api_sites__site_id__tiles__z___x___y__png_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{site_id}/trunks": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Trunks
+         * @description All trunks known of a site, with their addresses in its rows; none before the first run with a 2D LiDAR.
+         */
+        get: operations["read_trunks_api_sites__site_id__trunks_get"];
+        put?: never;
+        post?: never;
+        /**
+         * Delete Trunks
+         * @description Throw the trunk map away; runs can be mapped again.
+         */
+        delete: operations["delete_trunks_api_sites__site_id__trunks_delete"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{site_id}/trunks/csv": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Export Csv
+         * @description The trunk map as CSV.
+         */
+        get: operations["export_csv_api_sites__site_id__trunks_csv_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{site_id}/trunks/geojson": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Export Geojson
+         * @description The trunk map as GeoJSON.
+         */
+        get: operations["export_geojson_api_sites__site_id__trunks_geojson_get"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1553,13 +1637,15 @@ export interface components {
         RowExit: "next_row" | "reverse" | "through";
         /**
          * RowMissionRequest
-         * @description One click on a row.
+         * @description One click on a row, or on a trunk of it (`stop_at`): from there the robot leaves in reverse.
          */
         RowMissionRequest: {
             /** @default reverse */
             exit: components["schemas"]["RowExit"];
             /** Row Id */
             row_id: string;
+            /** Stop At */
+            stop_at?: string | null;
         };
         /**
          * RowObservation
@@ -2040,6 +2126,68 @@ export interface components {
             message: string;
             /** Navigator */
             navigator: boolean;
+        };
+        /**
+         * TrunkAddress
+         * @description Of a trunk beside a row. `name` is as people say it: "left trunk 30 of 52".
+         */
+        TrunkAddress: {
+            /** Name */
+            name: string;
+            /** Number */
+            number: number;
+            /** Of */
+            of: number;
+            /** Row Id */
+            row_id: string;
+            /** Row Name */
+            row_name: string;
+            /** Side */
+            side: number;
+        };
+        /**
+         * TrunkDocument
+         * @description A trunk or post: centre and 1-sigma in `map`, m; one between two rows has an address in both.
+         */
+        TrunkDocument: {
+            /** Addresses */
+            addresses: components["schemas"]["TrunkAddress"][];
+            /** Diameter */
+            diameter: number;
+            /** Id */
+            id: string;
+            /** Std */
+            std: number;
+            /** Times Seen */
+            times_seen: number;
+            /** X */
+            x: number;
+            /** Y */
+            y: number;
+        };
+        /**
+         * TrunkMapDocument
+         * @description All that are known of a site, and how many runs tell it.
+         */
+        TrunkMapDocument: {
+            /** Runs */
+            runs: number;
+            /** Trunks */
+            trunks: components["schemas"]["TrunkDocument"][];
+        };
+        /**
+         * TrunksMapped
+         * @description What mapping a run came to, in words and numbers.
+         */
+        TrunksMapped: {
+            /** Added */
+            added: number;
+            /** Message */
+            message: string;
+            /** Seen */
+            seen: number;
+            /** Total */
+            total: number;
         };
         /**
          * VehicleParams
@@ -2735,6 +2883,37 @@ export interface operations {
             };
         };
     };
+    map_trunks_api_runs__run_id__trunks_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                run_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TrunksMapped"];
+                };
+            };
+            /** @description Any error */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorDocument"];
+                };
+            };
+        };
+    };
     session_api_session_get: {
         parameters: {
             query?: never;
@@ -3278,6 +3457,130 @@ export interface operations {
                 };
                 content: {
                     "image/png": unknown;
+                };
+            };
+            /** @description Any error */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorDocument"];
+                };
+            };
+        };
+    };
+    read_trunks_api_sites__site_id__trunks_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                site_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TrunkMapDocument"];
+                };
+            };
+            /** @description Any error */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorDocument"];
+                };
+            };
+        };
+    };
+    delete_trunks_api_sites__site_id__trunks_delete: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                site_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description Any error */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorDocument"];
+                };
+            };
+        };
+    };
+    export_csv_api_sites__site_id__trunks_csv_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                site_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/csv": unknown;
+                };
+            };
+            /** @description Any error */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorDocument"];
+                };
+            };
+        };
+    };
+    export_geojson_api_sites__site_id__trunks_geojson_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                site_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": {
+                        [key: string]: unknown;
+                    };
                 };
             };
             /** @description Any error */

@@ -9,6 +9,7 @@ import { MapView } from "../map/MapView";
 import { OrthophotoLayer } from "../map/OrthophotoLayer";
 import { PlanLayer } from "../map/PlanLayer";
 import { SiteLayer } from "../map/SiteLayer";
+import { TrunkLayer } from "../map/TrunkLayer";
 import { firstExtent } from "../map/fit";
 import { useSiteFrame } from "../map/useSiteFrame";
 import css from "./drive.module.css";
@@ -24,6 +25,7 @@ export function DriveMap({ document, robot, plan }: { document: SiteDocument; ro
       <PlanLayer plan={plan} frame={frame} />
       <LiveDrivenLayer frame={frame} />
       <LiveRobotLayer frame={frame} vehicle={robot.vehicle} follow={follow} />
+      <TrunkLayer siteId={document.id} frame={frame} />
       <FitTo extent={extent} subject={document.id} />
       <FollowButton follow={follow} onChange={setFollow} />
     </MapView>

@@ -5,6 +5,7 @@ import type { Point, SiteDocument } from "../api/types";
 import { FitTo } from "../map/FitTo";
 import { MapView } from "../map/MapView";
 import { OrthophotoLayer } from "../map/OrthophotoLayer";
+import { TrunkLayer } from "../map/TrunkLayer";
 import { firstExtent } from "../map/fit";
 import type { ItemRef } from "../map/siteFeatures";
 import { useSiteFrame } from "../map/useSiteFrame";
@@ -58,7 +59,10 @@ export function Workshop({ document, onReload }: { document: SiteDocument; onRel
             <Toolbar tool={tool} onTool={setTool} onUndo={editing.undo} onRedo={editing.redo} />
           </>
         ) : (
-          <MissionLayer site={site} frame={frame} draft={draft} />
+          <>
+            <MissionLayer site={site} frame={frame} draft={draft} />
+            <TrunkLayer siteId={document.id} frame={frame} onDrive={draft.draft ? undefined : draft.pressTrunk} />
+          </>
         )}
         <FitTo extent={extent} subject={document.id} />
       </MapView>

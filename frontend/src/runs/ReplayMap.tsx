@@ -8,6 +8,7 @@ import { OrthophotoLayer } from "../map/OrthophotoLayer";
 import { PlanLayer } from "../map/PlanLayer";
 import { RobotLayer } from "../map/RobotLayer";
 import { SiteLayer } from "../map/SiteLayer";
+import { TrunkLayer } from "../map/TrunkLayer";
 import { firstExtent } from "../map/fit";
 import type { RobotPose } from "../map/robotFeatures";
 import { useSiteFrame } from "../map/useSiteFrame";
@@ -35,6 +36,7 @@ export function ReplayMap({ run, track, pose, vehicle, site }: Props) {
       <PlanLayer plan={run.plan} frame={frame} />
       <DrivenLayer points={driven} frame={frame} />
       {vehicle && <RobotLayer frame={frame} vehicle={vehicle} pose={pose} />}
+      {site && <TrunkLayer siteId={site.id} frame={frame} />}
       <FitTo extent={extent} subject={run.id} />
     </MapView>
   );

@@ -5,6 +5,7 @@ import { Link } from "wouter";
 import type { RunDetail } from "../api/types";
 import { bytes, moment } from "../ui/format";
 import { Outcome, RunFigures } from "./RunFigures";
+import { MapTrunks } from "./MapTrunks";
 import css from "./runs.module.css";
 
 const FORMATS = ["mcap", "csv", "geojson", "gpx"] as const;
@@ -26,6 +27,7 @@ export function RunHeader({ run }: { run: RunDetail }) {
       <Outcome run={run} />
       <RunFigures run={run} full />
       <Downloads run={run} />
+      <MapTrunks run={run} />
     </header>
   );
 }

@@ -11,6 +11,7 @@ import { PlanLayer } from "../../map/PlanLayer";
 import { Z, useVectorLayer } from "../../map/layer";
 import { refOf, siteFeatures } from "../../map/siteFeatures";
 import { siteStyle } from "../../map/siteStyle";
+import { trunkAt } from "../../map/trunkAt";
 import { itemAt } from "../editing/SiteEditor";
 import { type Leg, changeWaypoint, orderedWaypoints } from "./missionEdits";
 import type { MissionDraft } from "./useMissionDraft";
@@ -43,7 +44,7 @@ function Rows({ site, frame, mission, onPress }: { site: SiteMap; frame: SiteFra
   useEffect(() => source.changed(), [source, mission]);
   useEffect(() => {
     const onClick = (event: MapBrowserEvent) => {
-      const ref = itemAt(map, source, event.pixel);
+      const ref = trunkAt(map, event.pixel) ? null : itemAt(map, source, event.pixel);
       if (ref?.kind === "row") press.current(ref.id);
     };
     map.on("singleclick", onClick);

@@ -21,7 +21,7 @@ export function useMissionDraft(document: SiteDocument) {
   const preview = useQuery(previewQuery(document.id, draft?.mission ?? null, document.version));
   const edit = (mission: Mission) => setDraft((before) => before && { ...before, mission });
   const forRow = useMutation({
-    mutationFn: (row_id: string) => post<Mission>(`/api/sites/${document.id}/missions/for-row`, { row_id, exit }),
+    mutationFn: (to: { row_id: string; stop_at?: string }) => post<Mission>(`/api/sites/${document.id}/missions/for-row`, { exit, ...to }),
     onSuccess: (mission) => setDraft({ stored: null, mission }),
   });
   const save = useMutation({
@@ -47,7 +47,9 @@ export function useMissionDraft(document: SiteDocument) {
     making: forRow.isPending,
     open: (stored: MissionDocument) => setDraft({ stored, mission: stored.mission }),
     close: () => setDraft(null),
-    pressRow: (row_id: string) => (draft ? edit(addVisit(draft.mission, row_id)) : forRow.mutate(row_id)),
+    pressRow: (row_id: string) => (draft ? edit(addVisit(draft.mission, row_id)) : forRow.mutate({ row_id })),
+    /** A new mission to a trunk beside a row, and back out in reverse. */
+    pressTrunk: (row_id: string, stop_at: string) => forRow.mutate({ row_id, stop_at }),
     unsaved: draft !== null && draft.mission !== draft.stored?.mission,
   };
 }

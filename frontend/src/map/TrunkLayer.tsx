@@ -1,0 +1,88 @@
+import { ActionIcon, Button, CloseButton, Paper } from "@mantine/core";
+import { useQuery } from "@tanstack/react-query";
+import { IconTrees } from "@tabler/icons-react";
+import type { MapBrowserEvent } from "ol";
+import { useEffect, useState } from "react";
+
+import { trunksQuery } from "../api/queries";
+import type { Trunk } from "../api/types";
+import type { SiteFrame } from "../geo/siteFrame";
+import { useMap } from "./MapView";
+import { Z, useVectorLayer } from "./layer";
+import css from "./trunks.module.css";
+import { trunkAt } from "./trunkAt";
+import { trunkFeatures, trunkStyle, trunkWords } from "./trunkFeatures";
+
+interface Props {
+  siteId: string;
+  frame: SiteFrame;
+  /** Makes the mission to a trunk beside a row; without it trunks are only looked at. */
+  onDrive?: (rowId: string, trunkId: string) => void;
+}
+
+/** The site's trunks, with a switch; a press on one tells about it. */
+export function TrunkLayer({ siteId, frame, onDrive }: Props) {
+  const map = useTrunkMap(siteId);
+  const [shown, setShown] = useState(true);
+  const [chosen, setChosen] = useState<Trunk | null>(null);
+  return (
+    <>
+      <ActionIcon className={css.switch} aria-pressed={shown} onClick={() => setShown(!shown)} aria-label="Show the trunks" title="Show the trunks">
+        <IconTrees size={26} />
+      </ActionIcon>
+      {shown && map && map.trunks.length > 0 && <Dots trunks={map.trunks} frame={frame} onChoose={setChosen} />}
+      {shown && map && map.trunks.length === 0 && <NoTrunks onClose={() => setShown(false)} />}
+      {shown && chosen && <TrunkCard trunk={chosen} onDrive={onDrive} onClose={() => setChosen(null)} />}
+    </>
+  );
+}
+
+function useTrunkMap(siteId: string) {
+  return useQuery(trunksQuery(siteId)).data;
+}
+
+function Dots({ trunks, frame, onChoose }: { trunks: readonly Trunk[]; frame: SiteFrame; onChoose: (trunk: Trunk) => void }) {
+  const map = useMap();
+  const source = useVectorLayer(Z.trunks, trunkStyle, true);
+  useEffect(() => {
+    source.clear(true);
+    source.addFeatures(trunkFeatures(trunks, frame));
+  }, [source, trunks, frame]);
+  useEffect(() => {
+    const onClick = (event: MapBrowserEvent) => {
+      const hit = trunkAt(map, event.pixel);
+      if (hit) onChoose(hit);
+    };
+    map.on("singleclick", onClick);
+    return () => map.un("singleclick", onClick);
+  }, [map, onChoose]);
+  return null;
+}
+
+function NoTrunks({ onClose }: { onClose: () => void }) {
+  return (
+    <Paper className={css.card} shadow="md" p="sm">
+      <span>No trunks are mapped yet. They appear after a run through a row with a 2D LiDAR.</span>
+      <CloseButton size="xl" onClick={onClose} aria-label="Close" />
+    </Paper>
+  );
+}
+
+function TrunkCard({ trunk, onDrive, onClose }: { trunk: Trunk; onDrive: Props["onDrive"]; onClose: () => void }) {
+  const [address] = trunk.addresses;
+  const drive = () => {
+    onDrive?.(address!.row_id, trunk.id);
+    onClose();
+  };
+  return (
+    <Paper className={css.card} shadow="md" p="sm">
+      <b>{trunkWords(trunk)}</b>
+      {onDrive && address && (
+        <Button size="lg" onClick={drive}>
+          Drive to this trunk
+        </Button>
+      )}
+      <CloseButton size="xl" onClick={onClose} aria-label="Close" />
+    </Paper>
+  );
+}
