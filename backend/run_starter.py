@@ -7,7 +7,7 @@ import shutil
 from contextlib import suppress
 from threading import Lock
 
-from backend import documents, missions, sites
+from backend import documents, missions, sites, trunk_maps
 from backend.audit import AuditBook
 from backend.database import Database
 from backend.errors import RefusedError
@@ -72,9 +72,10 @@ class RunStarter:
             mission_row = documents.find(session, Mission, mission_id)
             site_row = documents.find(session, Site, mission_row.site_id)
             mission, site = missions.mission(mission_row), sites.site_map(site_row)
+            trunks = trunk_maps.of_site(session, site_row.id)
         reasons = [*self._disk_reasons(), *self._robot.start_reasons(site_row.id, site_row.name)]
         try:
-            plan = plan_mission(site, mission, PROFILES[self._settings.vehicle])
+            plan = plan_mission(site, mission, PROFILES[self._settings.vehicle], trunks=trunks)
         except MissionError as error:
             raise RefusedError(CANNOT_START, [*reasons, *error.reasons]) from error
         if reasons:

@@ -63,7 +63,8 @@ def import_mission(station: TheStation, site_id: PathId, body: GeoJson) -> Missi
 @router.post("/sites/{site_id}/preview")
 def preview_mission(station: TheStation, site_id: PathId, body: PreviewRequest) -> Preview:
     """What would be driven, or every reason why it cannot be."""
-    return planner.preview(station.sites.get(site_id).site, check_mission(body.mission), station.vehicle)
+    site, (trunks, _) = station.sites.get(site_id).site, station.trunk_maps.get(site_id)
+    return planner.preview(site, check_mission(body.mission), station.vehicle, trunks)
 
 
 @router.get("/missions/{mission_id}")

@@ -1208,6 +1208,25 @@ export interface components {
             y: number;
         };
         /**
+         * MountAgreement
+         * @description Whether a camera looks where the 2D LiDAR says that its trunks stand.
+         *
+         *     Attributes:
+         *         trunks: so many were asked.
+         *         yaw: by so much further left than calibrated the camera looks, rad; yaw_std its 1-sigma.
+         *         moved: surely so: an alarm that stays on.
+         */
+        MountAgreement: {
+            /** Moved */
+            moved: boolean;
+            /** Trunks */
+            trunks: number;
+            /** Yaw */
+            yaw: number;
+            /** Yaw Std */
+            yaw_std: number;
+        };
+        /**
          * NavMode
          * @description Which source the robot is driving on.
          * @enum {string}
@@ -1674,6 +1693,7 @@ export interface components {
          *         lean: by so much more than told the camera leans to the side (roll of the driving frame, left side up), rad;
          *             once every few metres, else None. lean_std: 1-sigma.
          *         mount: how the camera is mounted, told together with `lean`.
+         *         agreement: of the camera with the LiDAR, whenever another trunk was asked; else None.
          *         source: the sensors that it was seen with. missing: what is wrong with a sensor that should have helped, in a
          *             sentence; empty when all is well.
          *         plants: scanned ones on the row's two lines, nearest first, within 8 m, at most 12; none without 2D LiDAR.
@@ -1681,6 +1701,7 @@ export interface components {
          *             at the look-ahead depth, m, and its angle to the image's vertical, rad; both positive to the left.
          */
         RowObservation: {
+            agreement?: components["schemas"]["MountAgreement"] | null;
             camera: components["schemas"]["CameraName"];
             /**
              * Carried

@@ -23,16 +23,19 @@ interface Props {
 /** The site's trunks, with a switch; a press on one tells about it. */
 export function TrunkLayer({ siteId, frame, onDrive }: Props) {
   const map = useTrunkMap(siteId);
-  const [shown, setShown] = useState(true);
+  // Until somebody presses the switch: shown where there are any.
+  const [wanted, setWanted] = useState<boolean | null>(null);
+  const trunks = map?.trunks ?? [];
+  const shown = wanted ?? trunks.length > 0;
   const [chosen, setChosen] = useState<Trunk | null>(null);
   return (
     <>
-      <ActionIcon className={css.switch} aria-pressed={shown} onClick={() => setShown(!shown)} aria-label="Show the trunks" title="Show the trunks">
+      <ActionIcon className={css.switch} aria-pressed={shown} onClick={() => setWanted(!shown)} aria-label="Show the trunks" title="Show the trunks">
         <IconTrees size={26} />
       </ActionIcon>
-      {shown && map && map.trunks.length > 0 && <Dots trunks={map.trunks} frame={frame} onChoose={setChosen} />}
-      {shown && map && map.trunks.length === 0 && <NoTrunks onClose={() => setShown(false)} />}
-      {shown && chosen && <TrunkCard trunk={chosen} onDrive={onDrive} onClose={() => setChosen(null)} />}
+      {shown && trunks.length > 0 && <Dots trunks={trunks} frame={frame} onChoose={setChosen} />}
+      {shown && map && trunks.length === 0 && <NoTrunks onClose={() => setWanted(false)} />}
+      {shown && chosen && <TrunkCard siteId={siteId} trunk={chosen} onDrive={onDrive} onClose={() => setChosen(null)} />}
     </>
   );
 }
@@ -68,7 +71,14 @@ function NoTrunks({ onClose }: { onClose: () => void }) {
   );
 }
 
-function TrunkCard({ trunk, onDrive, onClose }: { trunk: Trunk; onDrive: Props["onDrive"]; onClose: () => void }) {
+interface CardProps {
+  siteId: string;
+  trunk: Trunk;
+  onDrive: Props["onDrive"];
+  onClose: () => void;
+}
+
+function TrunkCard({ siteId, trunk, onDrive, onClose }: CardProps) {
   const [address] = trunk.addresses;
   const drive = () => {
     onDrive?.(address!.row_id, trunk.id);
@@ -82,6 +92,9 @@ function TrunkCard({ trunk, onDrive, onClose }: { trunk: Trunk; onDrive: Props["
           Drive to this trunk
         </Button>
       )}
+      <span>
+        All trunks as <a href={`/api/sites/${siteId}/trunks/geojson`}>GeoJSON</a> or <a href={`/api/sites/${siteId}/trunks/csv`}>CSV</a>
+      </span>
       <CloseButton size="xl" onClick={onClose} aria-label="Close" />
     </Paper>
   );
