@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 
 from navcore.geometry.lidar_mount import LidarMount
@@ -25,10 +23,7 @@ def robot_cameras(*, width_px: int = 640, height_px: int = 360) -> dict[CameraNa
 
 
 class ProjectedEye:
-    """Row perception on boxes projected from the truth, without pixels. `blind`: the camera gives no pictures.
-
-    `turned` is by how much further left than perception believes the cameras look, rad: somebody hit their mounts.
-    """
+    """Row perception on boxes projected from the truth, without pixels. `blind`: the camera gives no pictures."""
 
     def __init__(
         self,
@@ -37,15 +32,11 @@ class ProjectedEye:
         perception: RowPerceptionParams | None = None,
         objects: ProjectedObjectsParams | None = None,
         lidar: LidarMount | None = None,
-        turned: float = 0.0,
     ) -> None:
         rng = np.random.default_rng(seed)
         cameras = robot_cameras()
         faults = objects or ProjectedObjectsParams()
-        self._detectors = {
-            name: ProjectedObjects(orchard, replace(camera, yaw=camera.yaw + turned), faults, rng)
-            for name, camera in cameras.items()
-        }
+        self._detectors = {name: ProjectedObjects(orchard, camera, faults, rng) for name, camera in cameras.items()}
         params = perception or RowPerceptionParams()
         camera = cameras[CameraName.FRONT]
         perceptions = {n: RowPerception(c, self._detectors[n], params) for n, c in cameras.items()}

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from navcore.chassis.protocol import ChassisState, ControlMode, GuardState, VehicleState
-from navcore.messages import CameraMount, LinkLossPolicy, NavMode, RunState
+from navcore.messages import CameraMount, LinkLossPolicy, MountAgreement, NavMode, RunState
 from navcore.mission.event_facts import EventFacts, EventParams
 from navcore.mission.events import EVENTS, active_events, effects_of
 from navcore.mission.state_machine import Effect
@@ -42,6 +42,7 @@ FAULTS: dict[str, dict[str, Any]] = {
     "camera_askew": {"askew": (0.1, 0.02)},
     "camera_pitched": {"mount": replace(MOUNT, pitch=-0.06)},
     "camera_raised": {"mount": replace(MOUNT, height=1.05)},
+    "camera_turned": {"agreement": MountAgreement(trunks=20, yaw=0.03, yaw_std=0.005, moved=True)},
     "tick_slow": {"tick_s": 0.12},
     "no_position": {"pose_std": None},
     "position_unsure": {"pose_std": 1.0},
