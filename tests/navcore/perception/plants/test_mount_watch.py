@@ -36,8 +36,8 @@ def view(
     row = RowObservation(stamp_ns=stamp_ns, camera=CameraName.FRONT, valid=False, reason="")
     return CameraView(
         stamp_ns=stamp_ns, camera=CameraName.FRONT, width_px=640, height_px=360, objects=(BOX,) * len(seen),
-        points=(), left=None, right=None, centre=None, row=row, latency_ms=0.0, plants=tuple(seen), bearings=tuple(bearings),
-        camera_x=CAMERA.x,
+        points=(), left=None, right=None, centre=None, row=row, latency_ms=0.0, plants=tuple(seen),
+        bearings=tuple(bearings), camera_x=CAMERA.x,
     )  # fmt: skip
 
 
