@@ -20,7 +20,7 @@ def planned_speeds(points: Floats, wanted: Floats, vehicle: VehicleParams, param
     line = Polyline(points)
     curve = _smoothed_curvature(line)
     bounds = params.curve_speeds(curve, vehicle)
-    speeds = np.minimum(np.minimum(wanted, vehicle.max_speed), bounds)
+    speeds = np.clip(wanted, 0.0, np.minimum(vehicle.max_speed, bounds))
     return np.maximum(_eased(_eased(speeds, line.s, params.braking)[::-1], -line.s[::-1], params.braking)[::-1], 0.05)
 
 

@@ -22,19 +22,19 @@ def picture(camera: PinholeCamera) -> Image:
 
 
 def boxes_at(
-    camera: PinholeCamera, feet: np.ndarray, reach: float = 12.0, roll: float = 0.0
+    camera: PinholeCamera, feet: np.ndarray, reach: float = 12.0, roll: float = 0.0, wide: np.ndarray | None = None
 ) -> tuple[DetectedObject, ...]:
-    """Boxes of trunks 8 cm thick and 1.2 m high at feet (N, 2) in `base_link`, those wholly inside the picture.
+    """Boxes of trunks 1.2 m high at feet (N, 2) in `base_link`, those wholly inside the picture.
 
-    `roll` of the body against the ground, rad.
+    `roll` of the body against the ground, rad; `wide` (N,) are the boxes, m, else 8 cm.
     """
     objects, leaning = [], rotation_from_rpy(roll, 0.0, 0.0)
-    for x, y in feet:
+    for (x, y), width in zip(feet, np.full(len(feet), 0.08) if wide is None else wide, strict=True):
         facing = (x - camera.x) * math.cos(camera.yaw) + (y - camera.y) * math.sin(camera.yaw)
         if facing < 0.5 or math.hypot(x - camera.x, y - camera.y) > reach:
             continue
         (u, v), (_, top) = camera.project(np.array([[x, y, 0.0], [x, y, 1.2]]) @ leaning)
-        half = 0.04 * camera.fx / facing
+        half = 0.5 * width * camera.fx / facing
         if u - half > 0 and u + half < camera.width_px and v < camera.height_px:
             objects.append(
                 DetectedObject(kind=ObjectKind.TRUNK, confidence=0.9, x1=u - half, y1=top, x2=u + half, y2=v)

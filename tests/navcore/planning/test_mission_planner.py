@@ -19,7 +19,9 @@ from navcore.maps.mission import Mission, RowExit, RowVisit, Waypoint
 from navcore.maps.site_map import Row, SiteMap, Warehouse, ZoneKind
 from navcore.messages import MissionPlan, PathSegment, SegmentKind
 from navcore.planning.mission_planner import mission_for_row, plan_mission
+from navcore.planning.params import PlanningParams
 from navcore.planning.preview import preview
+from navcore.planning.speeds import planned_speeds
 from navcore.vehicle import PAPER_A
 from tests.navcore.planning.farms import farm, zone
 
@@ -229,3 +231,9 @@ def test_coming_out_where_no_lane_is_the_robot_drives_round_the_block() -> None:
     assert_drivable(plan)
     plants = shapely.MultiLineString([((x - 1.25, 0), (x - 1.25, 60)) for x in np.arange(0.0, 17.6, 2.5)])
     assert swept(plan.segments, 0.1).disjoint(plants)
+
+
+def test_a_speed_that_nobody_can_mean_is_no_motion_backwards_and_no_overflow() -> None:
+    points = np.column_stack((np.linspace(0.0, 3.0, 31), np.zeros(31)))
+    planned = planned_speeds(points, np.full(31, -1e308), PAPER_A, PlanningParams())
+    assert np.all((planned >= 0.0) & (planned <= PAPER_A.max_speed))

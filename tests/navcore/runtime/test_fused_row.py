@@ -46,7 +46,8 @@ class Drive:
         return self.eye.look(image, self.i * NS, self._request(), scans=(self._scan(),) if scan else ())
 
     def _boxes(self) -> tuple[DetectedObject, ...]:
-        seen = boxes_at(FRONT, self.pose.inverse().apply(self.trunks))
+        # A box about a trunk is nearly twice as wide: trunks sway and fork.
+        seen = boxes_at(FRONT, self.pose.inverse().apply(self.trunks), wide=1.9 * self.diameters)
         noise = self.rng.normal(0.0, 1.5, (len(seen), 2))
         return tuple(
             DetectedObject(kind=o.kind, confidence=0.8, x1=o.x1 + du, y1=o.y1, x2=o.x2 + du, y2=o.y2 + dv)
