@@ -13,12 +13,10 @@ from backend.disk import write_durably
 from backend.run_track import read_track
 from navcore.errors import InputError
 from navcore.mapping.trunks_seen import trunks_seen
-from navcore.maps.site_map import SiteMap
-from navcore.maps.trunk_map import TrunkMap
 from navcore.promptness import stand_back
 from navcore.recording.export import RunExport
-from navcore.recording.reader import read_metadata
-from navcore.transport.codec import decode, encode
+from navcore.recording.reader import read_farm
+from navcore.transport.codec import encode
 
 UNREADABLE = 3
 
@@ -41,16 +39,10 @@ def render(log: Path, form: str) -> str:
     if form == "track":
         return read_track(log).model_dump_json()
     if form == "trunks":
-        return encode(_trunks(log)).decode()
+        return encode(trunks_seen(log, read_farm(log).rows)).decode()
     export = RunExport(log)
     forms = {"csv": export.csv, "geojson": export.geojson, "gpx": export.gpx}
     return forms[form]()
-
-
-def _trunks(log: Path) -> TrunkMap:
-    """On the rows that the run was started with."""
-    site = read_metadata(log).get("site")
-    return trunks_seen(log, decode(SiteMap, site.encode()).rows) if site else TrunkMap()
 
 
 if __name__ == "__main__":

@@ -105,6 +105,7 @@ class Navigator:
             gnss_streak=s.gnss.streak, standing=s.standing,
             yaw_std=math.sqrt(max(s.pose.covariance[8], 0.0)) if s.pose else 0.0,
             lean=s.attitude.against_ground(s.T_odom_base.yaw), roll=s.attitude.roll,
+            land_roll=s.attitude.land_roll(s.T_odom_base.yaw),
         )  # fmt: skip
 
     def _advance(self, at: Position, rows: tuple[RowObservation, ...], dt: float) -> ModeSwitch | None:

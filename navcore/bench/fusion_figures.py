@@ -31,17 +31,12 @@ def drive_figures(results: tuple[SegmentResult, ...]) -> tuple[Figure, ...]:
     """Lateral deviation of every chain, then the trees."""
     seed = results[0].case.young().seed if results else None
     by_chain = {c: [r for r in results if r.case.chain is c] for c in Chain}
-    tracked = {c: tracking(found) for c, found in by_chain.items() if found}
+    tracked = {c: tracking(r.off for r in found) for c, found in by_chain.items() if found}
     lines = [f for c in tracked for f in _lateral(c, tracked[c], tracked.get(Chain.PUBLISHED), by_chain[c], seed)]
     return (*lines, *_as_planted(by_chain[Chain.OURS], seed), *_tree_figures(by_chain[Chain.OURS], seed))
 
 
-def tracking(results: Iterable[SegmentResult]) -> Tracking:
-    """From the middle as surveyed; see `_tracking`."""
-    return _tracking(r.off for r in results)
-
-
-def _tracking(deviations: Iterable[tuple[float | None, ...]]) -> Tracking:
+def tracking(deviations: Iterable[tuple[float | None, ...]]) -> Tracking:
     """Mean and RMS over all stations that were passed, m; within 10 cm of all stations, not reached ones included."""
     told = list(joined.from_iterable(deviations))
     off = np.abs(np.array([e for e in told if e is not None], dtype=np.float64))
@@ -75,7 +70,7 @@ def _lateral(
 
 def _as_planted(results: list[SegmentResult], seed: int | None) -> list[Figure]:
     """From where the middle was meant to be, which nobody can see: trees stand 10 cm about it."""
-    mean, n = _tracking(r.planned for r in results).mean, sum(len(r.planned) for r in results)
+    mean, n = tracking(r.planned for r in results).mean, sum(len(r.planned) for r in results)
     name = "lateral mean from the middle as it was meant to be planted, ours"
     value = None if np.isnan(mean) else mean
     return [Figure(figure=name, value=value, unit="m", n=n, seed=seed, table=TABLE)] if results else []

@@ -6,13 +6,10 @@ planting, so the shape is the planned one; where it lies, all trees of both line
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 from numpy.typing import NDArray
 
-from navcore.geometry.se2 import SE2
-from navcore.maps.site_map import Row
+from navcore.maps.row_frame import row_frame
 from navcore.sim.young_orchard import YoungSegment
 
 Floats = NDArray[np.float64]
@@ -38,9 +35,3 @@ class SegmentSurvey:
     def middle(self, along: Floats) -> Floats:
         """Where it is, (N,) m to the left."""
         return np.asarray(self.planned(along) + self._shift + self._turn * along)
-
-
-def row_frame(row: Row) -> SE2:
-    """`T_row_map` of a row as drawn."""
-    yaw = math.atan2(row.end[1] - row.start[1], row.end[0] - row.start[0])
-    return SE2(row.start[0], row.start[1], yaw).inverse()

@@ -75,7 +75,7 @@ class MountState:
     Attributes:
         pairs: taken. yaw, yaw_std: by how much the camera is turned to the left of its calibration, rad.
         lateral, lateral_std: by how much it stands to the left of it, m; None where the pairs do not tell.
-        moved: the alarm; it stays on. text: for the operator.
+        moved: the alarm; it stays on.
     """
 
     pairs: int
@@ -84,7 +84,6 @@ class MountState:
     lateral: float | None
     lateral_std: float | None
     moved: bool
-    text: str
 
 
 class MountCheck:
@@ -123,21 +122,12 @@ class MountCheck:
         told = lateral_std < self._params.observable * self._params.most_lateral / math.sqrt(3.0)
         return MountState(
             pairs=self._pairs, yaw=yaw, yaw_std=yaw_std, lateral=lateral if told else None,
-            lateral_std=lateral_std if told else None, moved=self._moved, text=self._text(yaw, yaw_std),
+            lateral_std=lateral_std if told else None, moved=self._moved,
         )  # fmt: skip
 
     def _ratio(self) -> float:
         """Log of the evidence for a mount that was moved over that for one as calibrated."""
         return _log_sum(self._evidence + self._anywhere) - _log_sum(self._evidence + self._as_calibrated)
-
-    def _text(self, yaw: float, yaw_std: float) -> str:
-        if self._pairs == 0:
-            return "No trunk has been seen by camera and LiDAR yet."
-        side, turned = "left" if yaw > 0.0 else "right", abs(math.degrees(yaw))
-        known = f"{turned:.1f} deg to the {side} (± {math.degrees(yaw_std):.1f})"
-        if self._moved:
-            return f"The camera's mount has moved: it looks {known} of its calibration. Fix it, and calibrate again."
-        return f"Camera and LiDAR agree over {self._pairs} trunks: {known}."
 
 
 def _check(pair: TrunkPair) -> None:

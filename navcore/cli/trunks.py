@@ -22,7 +22,8 @@ def register(app: typer.Typer) -> None:
 def trunks(
     log: Annotated[Path, typer.Argument(metavar="RUN", help="Log of a run (.mcap).")],
     site: Annotated[
-        Path | None, typer.Option(help="Site as JSON; else the one that the run was started with.")
+        Path | None,
+        typer.Option(help="Site as JSON; else the one that the log says the run was started with."),
     ] = None,
     known: Annotated[Path | None, typer.Option(help="Trunk map (GeoJSON) that the run's is added to.")] = None,
     as_json: Annotated[bool, typer.Option("--json", help="One JSON object.")] = False,
@@ -43,18 +44,10 @@ def trunks(
 
 
 def _site(log: Path, site: Path | None) -> SiteMap:
-    from navcore.errors import LogError
-    from navcore.maps.site_map import SiteMap
-    from navcore.recording.reader import read_metadata
+    from navcore.recording.reader import read_farm
     from navcore.runtime.site_file import read_site
-    from navcore.transport.codec import decode
 
-    if site is not None:
-        return read_site(site)
-    told = read_metadata(log).get("site")
-    if not told:
-        raise LogError(f"{log.name} does not say on which site it was driven. Give the site with --site FILE.")
-    return decode(SiteMap, told.encode())
+    return read_farm(log) if site is None else read_site(site)
 
 
 def _map(log: Path, farm: SiteMap, known: Path | None) -> TrunkMap:

@@ -101,3 +101,7 @@ class Attitude:
         """(roll, pitch) of the body against the ground at a yaw in `odom`, rad."""
         forward, left = self._slope.tilt(yaw)
         return self.roll - left, self.pitch + forward
+
+    def land_roll(self, yaw: float) -> float:
+        """Of the ground against gravity, seen at a yaw in `odom`, left side up, rad."""
+        return self._slope.tilt(yaw)[1]

@@ -63,12 +63,20 @@ def match_trunks(
     if len(seen) < params.least:
         return f"only {len(seen)} trunks are seen"
     shifts = _shifts(along_std, params)
+    known = _in_reach(seen, known, float(shifts[-1]), params)
     scores = _scores(seen, known, shifts, params) - 0.5 * (shifts / along_std) ** 2
     best = int(scores.argmax())
     others = scores[np.abs(shifts - shifts[best]) > params.apart]
     if len(others) and scores[best] - others.max() < params.stands_out:
         return "ambiguous"
     return _refined(seen, known, float(shifts[best]), params)
+
+
+def _in_reach(seen: Floats, known: Floats, reach: float, p: TrunkMatchParams) -> Floats:
+    """Those that a shift can lay seen ones on, of a row that may be long: the robot waits for the answer."""
+    margin = reach + 5.0 * np.hypot(p.along_noise, known[:, 3])
+    near = (known[:, 0] > seen[:, 0].min() - margin) & (known[:, 0] < seen[:, 0].max() + margin)
+    return np.asarray(known[near])
 
 
 def _shifts(along_std: float, p: TrunkMatchParams) -> Floats:

@@ -1,20 +1,27 @@
-"""A trunk map that grows by a run."""
+"""A trunk map that grows: by the passes of a run, and by runs."""
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
 from dataclasses import replace
 
-import numpy as np
-from numpy.typing import NDArray
-
 from navcore.errors import SiteError
-from navcore.mapping.one_trunk import reach, same
-from navcore.mapping.whole_shift import WholeShift, whole_shift
+from navcore.mapping.one_trunk import laid, taken_in
+from navcore.mapping.whole_shift import WholeShift
 from navcore.maps.trunk_map import MappedTrunk, TrunkMap
 
-Floats = NDArray[np.float64]
 # Runs err by their receivers: a trunk gets no surer by being seen again and again than that, m.
 LEAST_STD = 0.01
+
+
+def all_passes(passes: Sequence[Sequence[MappedTrunk]]) -> list[MappedTrunk]:
+    """The trunks of a run's passes, each once. A pass is laid upon the earlier ones first, where that is clear."""
+    known: list[MappedTrunk] = []
+    for seen in passes:
+        updated, new = taken_in(known, laid(known, seen)[0], _of_one_run)
+        known = updated + new
+    return known
 
 
 def merged(known: TrunkMap, seen: TrunkMap) -> TrunkMap:
@@ -23,17 +30,24 @@ def merged(known: TrunkMap, seen: TrunkMap) -> TrunkMap:
     The run as a whole is laid upon what was known first. Raises SiteError where that can be done in two ways, as with
     trees planted at one distance and a run that was off by half of it; then nothing is taken over.
     """
-    if not known.trunks or not seen.trunks:
-        return known if known.trunks else seen
-    shift = whole_shift(_places(seen), _places(known), reach(_stds(seen)))
+    moved, shift = laid(known.trunks, seen.trunks)
     if shift.ambiguous:
         raise SiteError(_ambiguous(shift))
-    moved = [replace(t, x=t.x + shift.x, y=t.y + shift.y) for t in seen.trunks]
-    laid = TrunkMap(trunks=tuple(moved))
-    met = dict(same(_places(known), _places(laid), _stds(known), _stds(laid)))
-    again = set(met.values())
-    updated = [_seen_again(t, moved[met[i]]) if i in met else t for i, t in enumerate(known.trunks)]
-    return TrunkMap(trunks=(*updated, *(t for j, t in enumerate(moved) if j not in again)))
+    updated, new = taken_in(known.trunks, moved, _of_two_runs)
+    counted = [
+        replace(after, times_seen=before.times_seen + 1) if after is not before else before
+        for before, after in zip(known.trunks, updated, strict=True)
+    ]
+    return TrunkMap(trunks=(*counted, *new))
+
+
+def _of_one_run(p: MappedTrunk, q: MappedTrunk) -> float:
+    """No smaller than the better one's: passes of a run share the errors of their positions."""
+    return min(p.std, q.std)
+
+
+def _of_two_runs(p: MappedTrunk, q: MappedTrunk) -> float:
+    return max(p.std * q.std / math.hypot(p.std, q.std), LEAST_STD)
 
 
 def _ambiguous(shift: WholeShift) -> str:
@@ -42,21 +56,3 @@ def _ambiguous(shift: WholeShift) -> str:
         f"{shift.rivals} on another): the positions of the run were off by about half the distance between trees. "
         "The trunk map was left as it was. Drive the row again with an RTK fix at its entrance."
     )
-
-
-def _seen_again(known: MappedTrunk, seen: MappedTrunk) -> MappedTrunk:
-    a, b = known.std**-2, seen.std**-2
-    share = b / (a + b)
-    return replace(
-        known, x=known.x + share * (seen.x - known.x), y=known.y + share * (seen.y - known.y),
-        std=max((a + b) ** -0.5, LEAST_STD), diameter=known.diameter + share * (seen.diameter - known.diameter),
-        times_seen=known.times_seen + seen.times_seen, sureness=max(known.sureness, seen.sureness),
-    )  # fmt: skip
-
-
-def _places(trunk_map: TrunkMap) -> Floats:
-    return np.array([(t.x, t.y) for t in trunk_map.trunks]).reshape(-1, 2)
-
-
-def _stds(trunk_map: TrunkMap) -> Floats:
-    return np.array([t.std for t in trunk_map.trunks])

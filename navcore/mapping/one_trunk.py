@@ -1,18 +1,19 @@
-"""Which sightings of two passes are one trunk, and where it stands then."""
+"""Which trunks that were seen are known ones: of the passes of a run, and of a run beside the map."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import KDTree
 
-from navcore.mapping.passes import SeenPlant
-from navcore.mapping.whole_shift import whole_shift
+from navcore.mapping.whole_shift import WholeShift, whole_shift
+from navcore.maps.trunk_map import MappedTrunk
 
 Floats = NDArray[np.float64]
+Trunks = Sequence[MappedTrunk]
 # Two places this many sigmas apart may be one trunk; never further apart than FURTHEST, as the closest trees of young
 # orchards stand 1 m from each other, and always within NEAREST, m.
 SIGMAS = 3.0
@@ -22,67 +23,50 @@ FURTHEST = 0.4
 MOST_SHIFT = 1.0
 
 
-def all_passes(passes: Sequence[Sequence[SeenPlant]]) -> tuple[SeenPlant, ...]:
-    """The plants of a run's passes, each once. A pass is laid upon the earlier ones first, where that is clear."""
-    known: list[SeenPlant] = []
-    for seen in passes:
-        known = _with(known, _laid(known, seen))
-    return tuple(known)
-
-
-def same(places: Floats, others: Floats, std: Floats, other_std: Floats) -> list[tuple[int, int]]:
-    """Pairs (i, j) of `places` (N, 2) and `others` (M, 2) that are one trunk; each in one pair, the nearest first."""
-    if not len(places) or not len(others):
-        return []
-    pairs = KDTree(places).sparse_distance_matrix(KDTree(others), FURTHEST, output_type="coo_matrix")
-    gates = np.clip(SIGMAS * np.hypot(std[pairs.row], other_std[pairs.col]), NEAREST, FURTHEST)
-    rows = zip(pairs.data, pairs.row, pairs.col, gates, strict=True)
-    near = sorted((float(d), int(i), int(j)) for d, i, j, g in rows if d <= g)
-    found: list[tuple[int, int]] = []
-    mine, theirs = set[int](), set[int]()
-    for _, i, j in near:
-        if i not in mine and j not in theirs:
-            mine.add(i)
-            theirs.add(j)
-            found.append((i, j))
-    return found
-
-
-def reach(stds: Floats) -> float:
-    """How far whole passes may stand from each other, m."""
-    return min(MOST_SHIFT, max(FURTHEST, SIGMAS * float(np.median(stds)))) if len(stds) else FURTHEST
-
-
-def _laid(known: Sequence[SeenPlant], seen: Sequence[SeenPlant]) -> list[SeenPlant]:
-    shift = whole_shift(_places(seen), _places(known), reach(_stds(seen)))
+def laid(known: Trunks, seen: Trunks) -> tuple[list[MappedTrunk], WholeShift]:
+    """What was seen, moved as a whole onto what is known, and by how much; where it stands if that is not clear."""
+    stds = [trunk.std for trunk in seen]
+    reach = min(MOST_SHIFT, max(FURTHEST, SIGMAS * float(np.median(stds)))) if stds else FURTHEST
+    shift = whole_shift(_places(seen), _places(known), reach)
     if shift.ambiguous:
-        return list(seen)
-    return [replace(p, x=p.x + shift.x, y=p.y + shift.y) for p in seen]
+        return list(seen), shift
+    return [replace(t, x=t.x + shift.x, y=t.y + shift.y) for t in seen], shift
 
 
-def _with(known: list[SeenPlant], seen: list[SeenPlant]) -> list[SeenPlant]:
-    pairs = same(_places(known), _places(seen), _stds(known), _stds(seen))
-    met = dict(pairs)
+def taken_in(
+    known: Trunks, seen: Trunks, std_of: Callable[[MappedTrunk, MappedTrunk], float]
+) -> tuple[list[MappedTrunk], list[MappedTrunk]]:
+    """The known trunks, those met again placed anew with the sigma of `std_of`, and the new ones among `seen`."""
+    met = dict(_pairs(known, seen))
     again = set(met.values())
-    updated = [_joined(p, seen[met[i]]) if i in met else p for i, p in enumerate(known)]
-    return updated + [p for j, p in enumerate(seen) if j not in again]
+    updated = [_one(t, seen[met[i]], std_of) if i in met else t for i, t in enumerate(known)]
+    return updated, [t for j, t in enumerate(seen) if j not in again]
 
 
-def _joined(p: SeenPlant, q: SeenPlant) -> SeenPlant:
-    """Weighted mean of one trunk's places. The sigma becomes no smaller than of the better one: passes of a run share
-    the errors of their positions.
-    """
+def _pairs(known: Trunks, seen: Trunks) -> list[tuple[int, int]]:
+    """(i, j) of `known` and `seen` that are one trunk; each in one pair, the nearest first."""
+    if not known or not seen:
+        return []
+    std, other_std = (np.array([trunk.std for trunk in trunks]) for trunks in (known, seen))
+    near = KDTree(_places(known)).sparse_distance_matrix(KDTree(_places(seen)), FURTHEST, output_type="coo_matrix")
+    gates = np.clip(SIGMAS * np.hypot(std[near.row], other_std[near.col]), NEAREST, FURTHEST)
+    rows = zip(near.data, near.row, near.col, gates, strict=True)
+    found: dict[int, int] = {}
+    for _, i, j in sorted((float(d), int(i), int(j)) for d, i, j, gate in rows if d <= gate):
+        if i not in found and j not in found.values():
+            found[i] = j
+    return list(found.items())
+
+
+def _one(p: MappedTrunk, q: MappedTrunk, std_of: Callable[[MappedTrunk, MappedTrunk], float]) -> MappedTrunk:
+    """The weighted mean of both; it keeps the id of `p`."""
     a, b = p.std**-2, q.std**-2
     share = b / (a + b)
-    return SeenPlant(
-        x=p.x + share * (q.x - p.x), y=p.y + share * (q.y - p.y), std=min(p.std, q.std),
+    return replace(
+        p, x=p.x + share * (q.x - p.x), y=p.y + share * (q.y - p.y), std=std_of(p, q),
         diameter=p.diameter + share * (q.diameter - p.diameter), sureness=max(p.sureness, q.sureness),
     )  # fmt: skip
 
 
-def _places(plants: Sequence[SeenPlant]) -> Floats:
-    return np.array([(p.x, p.y) for p in plants]).reshape(-1, 2)
-
-
-def _stds(plants: Sequence[SeenPlant]) -> Floats:
-    return np.array([p.std for p in plants])
+def _places(trunks: Trunks) -> Floats:
+    return np.array([(trunk.x, trunk.y) for trunk in trunks]).reshape(-1, 2)

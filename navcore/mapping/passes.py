@@ -7,7 +7,7 @@ placed by the robot's poses: a linear least-squares problem (bundle adjustment o
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +18,7 @@ from scipy.sparse.linalg import spsolve
 from navcore.mapping.met_again import met_again
 from navcore.mapping.plant_tracks import PlantTrack
 from navcore.mapping.pose_track import Std
+from navcore.maps.trunk_map import MappedTrunk
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -31,23 +32,8 @@ LEAST_POSE_STD = 0.02
 INDEPENDENT = 4
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class SeenPlant:
-    """A plant of one pass.
-
-    Attributes:
-        x, y: centre in `map`, m; std its 1-sigma, each way, m. diameter: m. sureness: 0 to 1.
-    """
-
-    x: float
-    y: float
-    std: float
-    diameter: float
-    sureness: float
-
-
-def passes(tracks: list[PlantTrack], stds: list[Std]) -> list[tuple[SeenPlant, ...]]:
-    """The plants of each pass, in the order driven. Plants of one pass are linked by views that saw both.
+def passes(tracks: list[PlantTrack], stds: list[Std]) -> list[tuple[MappedTrunk, ...]]:
+    """The plants of each pass in the order driven, without ids. Those of one pass are linked by views that saw both.
 
     A plant that was forgotten and met again, as on the way back out, holds the two ways together once it is known
     to be one: so all is placed twice.
@@ -64,7 +50,7 @@ def passes(tracks: list[PlantTrack], stds: list[Std]) -> list[tuple[SeenPlant, .
     ]
 
 
-def _all_placed(tracks: list[PlantTrack], pose_std: Floats) -> list[tuple[SeenPlant, float]]:
+def _all_placed(tracks: list[PlantTrack], pose_std: Floats) -> list[tuple[MappedTrunk, float]]:
     plant, view, xy = _table(tracks)
     shifts = np.column_stack([_shifts(plant, view, xy[:, i], pose_std[:, i]) for i in (0, 1)])
     moved = xy + shifts[view]
@@ -99,7 +85,7 @@ def _linked(plant: Ints, view: Ints, plants: int, views: int) -> Ints:
     return np.asarray(connected_components(graph, directed=False)[1][:plants], dtype=np.int64)
 
 
-def _placed(track: PlantTrack, xy: Floats, pose_std: Floats) -> tuple[SeenPlant, float]:
+def _placed(track: PlantTrack, xy: Floats, pose_std: Floats) -> tuple[MappedTrunk, float]:
     """The robust mean of a plant's sightings; beside it how well the pass is placed there, m."""
     middle = np.median(xy, axis=0)
     apart = np.abs(xy - middle)
@@ -108,15 +94,10 @@ def _placed(track: PlantTrack, xy: Floats, pose_std: Floats) -> tuple[SeenPlant,
     own = float(np.sqrt(np.mean(sigma**2) / min(len(xy), INDEPENDENT)))
     diameter = float(np.median([s.diameter for s in track.sightings]))
     anchor = float(np.sqrt(np.mean(pose_std**2, axis=1)).min())
-    return SeenPlant(x=x, y=y, std=own, diameter=diameter, sureness=track.sureness), anchor
+    return MappedTrunk(id="", x=x, y=y, std=own, diameter=diameter, sureness=track.sureness), anchor
 
 
-def _anchored(plants: list[tuple[SeenPlant, float]]) -> list[SeenPlant]:
+def _anchored(plants: list[tuple[MappedTrunk, float]]) -> list[MappedTrunk]:
     """Each with the error of the pass's best pose in its sigma: the whole pass hangs on it."""
     best = min(anchor for _, anchor in plants)
-    return [
-        SeenPlant(
-            x=p.x, y=p.y, std=float(np.hypot(max(p.std, LEAST_STD), best)), diameter=p.diameter, sureness=p.sureness
-        )
-        for p, _ in plants
-    ]  # fmt: skip
+    return [replace(p, std=float(np.hypot(max(p.std, LEAST_STD), best))) for p, _ in plants]

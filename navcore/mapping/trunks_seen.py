@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from pathlib import Path
 
-from navcore.mapping.one_trunk import all_passes
-from navcore.mapping.passes import SeenPlant, passes
+from navcore.mapping.merged_runs import all_passes
+from navcore.mapping.passes import passes
 from navcore.mapping.plant_tracks import PlantTracks, PlantTracksParams
 from navcore.mapping.pose_track import PoseTrack
 from navcore.maps.site_map import Row
-from navcore.maps.trunk_map import MappedTrunk, TrunkMap, trunks_of_row
+from navcore.maps.trunk_map import TrunkMap, trunks_of_row
 from navcore.messages import CameraView, NavStatus, PoseEstimate
-from navcore.recording.reader import read_metadata, read_typed
+from navcore.recording.reader import read_log, read_metadata
 from navcore.topics import CAMERA_VIEW, NAV_STATUS
+from navcore.transport.codec import decode
 
 
 def trunks_seen(log: Path, rows: Sequence[Row], params: PlantTracksParams = PlantTracksParams()) -> TrunkMap:
@@ -24,8 +25,16 @@ def trunks_seen(log: Path, rows: Sequence[Row], params: PlantTracksParams = Plan
     run log, InputError if a message in it is of another version.
     """
     run_id = read_metadata(log).get("run_id") or log.stem
-    poses = [s.pose for s in read_typed(log, NAV_STATUS.name, NavStatus) if s.pose is not None]
-    return trunks_of_views(read_typed(log, CAMERA_VIEW.name, CameraView), poses, rows, run_id, params)
+    views: list[CameraView] = []
+    poses: list[PoseEstimate] = []
+    for message in read_log(log, (NAV_STATUS.name, CAMERA_VIEW.name)):
+        if message.name == NAV_STATUS.name:
+            pose = decode(NavStatus, message.payload).pose
+            poses += [pose] if pose is not None else []
+        elif (view := decode(CameraView, message.payload)).plants:
+            # Only what is read of it: an hour's views would fill the memory.
+            views.append(replace(view, objects=(), points=(), scan=(), ends=(), bearings=()))
+    return trunks_of_views(views, poses, rows, run_id, params)
 
 
 def trunks_of_views(
@@ -36,8 +45,8 @@ def trunks_of_views(
     tracks = PlantTracks(PoseTrack(poses), params)
     for view in views:
         tracks.add(view)
-    plants = all_passes(passes(tracks.good(), tracks.stds))
-    trunks = tuple(_mapped(run_id, k, plant) for k, plant in enumerate(plants, start=1))
+    found = all_passes(passes(tracks.good(), tracks.stds))
+    trunks = tuple(replace(trunk, id=f"{run_id}-{k}") for k, trunk in enumerate(found, start=1))
     return on_rows(TrunkMap(trunks=trunks), rows)
 
 
@@ -45,10 +54,3 @@ def on_rows(trunk_map: TrunkMap, rows: Sequence[Row]) -> TrunkMap:
     """Only those that stand on the line of a row."""
     kept = {placed.trunk.id for row in rows for placed in trunks_of_row(trunk_map, row)}
     return TrunkMap(trunks=tuple(trunk for trunk in trunk_map.trunks if trunk.id in kept))
-
-
-def _mapped(run_id: str, number: int, plant: SeenPlant) -> MappedTrunk:
-    return MappedTrunk(
-        id=f"{run_id}-{number}", x=plant.x, y=plant.y, std=plant.std, diameter=plant.diameter,
-        sureness=min(1.0, max(0.0, plant.sureness)) if math.isfinite(plant.sureness) else 0.0,
-    )  # fmt: skip

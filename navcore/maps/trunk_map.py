@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from navcore.maps.site_map import Point, Row
+from navcore.maps.row_frame import row_frame
+from navcore.maps.site_map import Row
 
 # A plant is on a row's line if it stands no further than this from where the line is drawn, m.
 BESIDE_LINE = 0.6
@@ -67,7 +68,8 @@ def trunks_of_row(trunk_map: TrunkMap, row: Row) -> tuple[RowTrunk, ...]:
 
     A trunk between two rows is one of both.
     """
-    placed = [(t, *_place(row, (t.x, t.y))) for t in trunk_map.trunks]
+    T_row_map = row_frame(row)
+    placed = [(t, *T_row_map.apply_point(t.x, t.y)) for t in trunk_map.trunks]
     return _line(row, placed, 1) + _line(row, placed, -1)
 
 
@@ -83,10 +85,3 @@ def _line(row: Row, placed: list[tuple[MappedTrunk, float, float]], side: int) -
         RowTrunk(trunk=trunk, side=side, number=k, of=len(on), along=along, lateral=lateral)
         for k, (along, lateral, trunk) in enumerate(on, start=1)
     )
-
-
-def _place(row: Row, point: Point) -> tuple[float, float]:
-    """Metres along the row's centre line and to its left."""
-    yaw = math.atan2(row.end[1] - row.start[1], row.end[0] - row.start[0])
-    x, y, c, s = point[0] - row.start[0], point[1] - row.start[1], math.cos(yaw), math.sin(yaw)
-    return c * x + s * y, c * y - s * x

@@ -33,7 +33,7 @@ class AlongTrunksParams:
 
 
 class AlongTrunks:
-    """Corrects the anchor along the row. `reason` says why the last look told nothing, empty if it did."""
+    """Corrects the anchor along the row."""
 
     def __init__(self, anchor: PathAnchor, params: AlongTrunksParams) -> None:
         self._anchor, self._params = anchor, params
@@ -43,7 +43,6 @@ class AlongTrunks:
         """Another row, or the same one the other way."""
         self._looked: float | None = None
         self._matched: float | None = None
-        self.reason = ""
 
     def see(self, seen: RowObservation, segment: PathSegment, T_odom_drive: SE2) -> None:
         """Take an observation of that segment's row; nothing happens without plants or known trunks."""
@@ -58,11 +57,9 @@ class AlongTrunks:
             _placed(seen.plants, at), _known(segment.trunks), self._anchor.along_std, self._params.match
         )
         if isinstance(found, str):
-            self.reason = found
             return
         self._anchor.see_along(row, T_odom_drive, at.x + found.shift, found.std)
         self._looked = self._matched = at.x + found.shift
-        self.reason = ""
 
     def next_trunk(self, segment: PathSegment, pose: SE2) -> NextTrunk | None:
         """The one that the driving frame at `pose` in `map` comes to next."""

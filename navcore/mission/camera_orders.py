@@ -46,5 +46,5 @@ def _request(
         stamp_ns=at.now_ns, camera=camera, odom_x=at.T_odom_base.x, odom_y=at.T_odom_base.y,
         odom_yaw=at.T_odom_base.yaw, offset=-seen_from.y, heading=wrap(-seen_from.yaw), offset_std=std, width=width,
         to_start=-seen_from.x, to_end=length - seen_from.x, roll=turned * at.lean[0], pitch=turned * at.lean[1],
-        land_roll=turned * (at.roll - at.lean[0]),
+        land_roll=turned * at.land_roll,
     )  # fmt: skip

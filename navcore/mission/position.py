@@ -19,7 +19,7 @@ class Position:
         standing: the robot does not move.
         yaw_std: 1-sigma of the yaw of T_map_base, rad.
         lean: (roll, pitch) of `base_link` against the ground, rad.
-        roll: of `base_link` against gravity, rad, left side up.
+        roll: of `base_link` against gravity, rad, left side up. land_roll: of the ground there.
     """
 
     now_ns: int
@@ -31,6 +31,7 @@ class Position:
     yaw_std: float = 0.0
     lean: tuple[float, float] = (0.0, 0.0)
     roll: float = 0.0
+    land_roll: float = 0.0
 
     def surely_at(self, std: float) -> SE2 | None:
         """The pose if it is known to `std` m."""

@@ -68,8 +68,7 @@ class Senses:
     @property
     def drift(self) -> float:
         """Direction in which the robot goes on this land while it points straight ahead, rad in `base_link`."""
-        land_roll = self.attitude.roll - self.attitude.against_ground(self.T_odom_base.yaw)[0]
-        return self.filter.drift(land_roll)
+        return self.filter.drift(self.attitude.land_roll(self.T_odom_base.yaw))
 
     @property
     def T_map_base(self) -> SE2 | None:

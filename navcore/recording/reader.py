@@ -13,6 +13,7 @@ from mcap.records import Channel, McapRecord, Message, Metadata
 from mcap.stream_reader import CRCValidationError, StreamReader
 
 from navcore.errors import LogError
+from navcore.maps.site_map import SiteMap
 from navcore.messages import Decision, NavInputs, NavPrelude
 from navcore.recording import foxglove
 from navcore.recording.run_log import METADATA, WALL_OFFSET
@@ -68,6 +69,14 @@ def read_metadata(path: Path) -> dict[str, str]:
         if isinstance(record, Metadata) and record.name == METADATA:
             return dict(record.metadata)
     raise LogError(f"{path.name} is no run log: it does not say which run it holds.")
+
+
+def read_farm(path: Path) -> SiteMap:
+    """The site that the run was started with. Raises LogError, also for a log that does not say."""
+    told = read_metadata(path).get("site")
+    if not told:
+        raise LogError(f"{path.name} does not say on which site it was driven.")
+    return decode(SiteMap, told.encode())
 
 
 def wall_offset_ns(path: Path) -> int:

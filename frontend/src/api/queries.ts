@@ -20,8 +20,13 @@ export const missionsQuery = (siteId: string | null | undefined) =>
     enabled: Boolean(siteId),
   });
 
+/** A run that has ended is mapped half a minute later, and nobody tells the page. */
 export const trunksQuery = (siteId: string) =>
-  queryOptions({ queryKey: ["trunks", siteId], queryFn: ({ signal }) => get<TrunkMap>(`/api/sites/${siteId}/trunks`, signal) });
+  queryOptions({
+    queryKey: ["trunks", siteId],
+    queryFn: ({ signal }) => get<TrunkMap>(`/api/sites/${siteId}/trunks`, signal),
+    refetchInterval: 30_000,
+  });
 
 /** The plan that would be driven. `revision` makes a changed site count as a changed question. */
 export const previewQuery = (siteId: string | undefined, mission: Mission | null, revision: number) =>

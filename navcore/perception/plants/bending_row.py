@@ -88,11 +88,10 @@ class BendingRow:
         line = basis @ self._prior @ basis.T
         seen = line + self._bend * smooth + np.eye(len(x)) * doubt * (self._scatter + variance)
         cross = self._asked @ self._prior @ basis.T + self._bend * to_asked
-        root = np.linalg.cholesky(seen)
-        solved = np.linalg.solve(seen, np.broadcast_to(off[:, None], (*seen.shape[:2], 1)))
-        means = (cross @ solved)[:, :, 0]
-        told = cross @ np.linalg.solve(seen, cross.transpose(0, 2, 1))
-        evidence = -0.5 * off @ solved[:, :, 0].T - np.log(np.diagonal(root, axis1=1, axis2=2)).sum(axis=1)
+        observed = np.broadcast_to(off[:, None], (*seen.shape[:2], 1))
+        solved = np.linalg.solve(seen, np.concatenate((observed, cross.transpose(0, 2, 1)), axis=2))
+        means, told = (cross @ solved)[:, :, 0], cross @ solved[:, :, 1:]
+        evidence = -0.5 * (off @ solved[:, :, 0].T + np.linalg.slogdet(seen)[1])
         weight = np.exp(evidence - evidence.max())
         weight /= weight.sum()
         mean = weight @ means

@@ -8,7 +8,7 @@ its foot is, roughly; the scan tells both well. The assignment of all boxes to a
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -65,25 +65,24 @@ def associate(
     """
     if not objects or not len(plants):
         return np.full(len(objects), -1, dtype=np.int64)
-    first = _assigned(distances(objects, plants, camera, pitch, params), params)
-    told, known = _told_pitch(objects, plants, first, camera, pitch, params)
-    return _assigned(distances(objects, plants, camera, told, known), params) if known is not params else first
+    boxes, p = corners_of(objects), params
+    beside, down = _by_middle(boxes, plants, camera, pitch, p), _feet_down(boxes, camera)
+    first = _assigned(beside + _by_foot(down, plants, camera, pitch, p.pitch_deg, p), p)
+    told = _told_pitch(down, plants, first, camera, p)
+    if told is None:
+        return first
+    return _assigned(beside + _by_foot(down, plants, camera, told, p.known_pitch * p.pitch_deg, p), p)
 
 
 def _told_pitch(
-    objects: tuple[DetectedObject, ...], plants: ScannedPlants, found: Ints, camera: PinholeCamera, pitch: float,
-    p: BoxAssociationParams,
-) -> tuple[float, BoxAssociationParams]:  # fmt: skip
-    """The pitch as the feet of `found` plants tell it, and how well it is known then; as before where too few do."""
-    paired = np.flatnonzero(found >= 0)
-    ahead = plants.xy[found[paired], 0] - camera.x
-    boxes = corners_of(objects)[paired]
-    seen = foot_rays(camera, np.column_stack(((boxes[:, 0] + boxes[:, 2]) / 2, boxes[:, 3])))[:, 1]
-    off = np.arctan(camera.z / np.maximum(ahead, 0.3)) - np.arctan(seen)
-    off = off[np.isfinite(off) & (boxes[:, 3] <= camera.height_px - 1.0)]
-    if len(off) < p.fewest:
-        return pitch, p
-    return float(np.median(off)), replace(p, pitch_deg=p.pitch_deg * p.known_pitch)
+    down: Floats, plants: ScannedPlants, found: Ints, camera: PinholeCamera, p: BoxAssociationParams
+) -> float | None:
+    """The pitch as the feet of `found` plants tell it, rad; None where too few do."""
+    paired = np.flatnonzero((found >= 0) & np.isfinite(down))
+    if len(paired) < p.fewest:
+        return None
+    ahead = np.maximum(plants.xy[found[paired], 0] - camera.x, 0.3)
+    return float(np.median(np.arctan(camera.z / ahead) - down[paired]))
 
 
 def _assigned(costs: Floats, params: BoxAssociationParams) -> Ints:
@@ -107,12 +106,12 @@ def _lead(costs: Floats) -> Floats:
     return np.asarray(next_best - best)
 
 
-def distances(
-    objects: tuple[DetectedObject, ...], plants: ScannedPlants, camera: PinholeCamera, pitch: float,
-    p: BoxAssociationParams,
-) -> Floats:  # fmt: skip
-    """(N, M) half the squared distances, in 1-sigmas, between objects and plants; more than `alone` out of reach."""
-    boxes = corners_of(objects)
+def _by_middle(
+    boxes: Floats, plants: ScannedPlants, camera: PinholeCamera, pitch: float, p: BoxAssociationParams
+) -> Floats:
+    """(N, M) half the squared distances, in 1-sigmas, between the middles and widths of boxes (N, 4) and plants, and
+    what counts against the plants; more than `alone` out of reach.
+    """
     x, y = (plants.xy - (camera.x, camera.y)).T
     ahead = np.maximum(x, 0.3)
     scale = camera.width_px / 640 / camera.fx
@@ -122,23 +121,33 @@ def distances(
     )  # fmt: skip
     told_size = np.maximum(plants.diameter, 0.01) / ahead
     size = np.log(((boxes[:, 2] - boxes[:, 0]) / camera.fx)[:, None] / told_size[None])
-    by_middle = (across / across_std[None]) ** 2 + ((size - p.wider) / p.size) ** 2
-    total = by_middle + _by_foot(boxes, ahead, camera, pitch, p)
+    total = (across / across_std[None]) ** 2 + ((size - p.wider) / p.size) ** 2
     doubt = np.minimum(-np.log(np.maximum(plants.sureness, 1e-6)), p.sureness)
     out_of_reach = (x < 0.3) | (np.hypot(x, y) > p.reach)
     return np.where(out_of_reach[None], 2.0 * p.alone + 1.0, 0.5 * total + doubt[None])
 
 
-def _by_foot(boxes: Floats, ahead: Floats, camera: PinholeCamera, pitch: float, p: BoxAssociationParams) -> Floats:
-    """(N, M) squared distances between where the feet of boxes are and those of plants: 0 for a foot out of sight."""
+def _feet_down(boxes: Floats, camera: PinholeCamera) -> Floats:
+    """(N,) how far below the camera's level mount the feet of boxes are seen, rad; NaN for a foot out of sight."""
     feet = np.column_stack(((boxes[:, 0] + boxes[:, 2]) / 2, boxes[:, 3]))
-    down = np.tan(np.arctan(foot_rays(camera, feet)[:, 1]) + pitch)
-    told = camera.z / ahead
+    seen = np.arctan(foot_rays(camera, feet)[:, 1])
+    return np.asarray(np.where(boxes[:, 3] > camera.height_px - 1.0, np.nan, seen))
+
+
+def _by_foot(
+    down: Floats,
+    plants: ScannedPlants,
+    camera: PinholeCamera,
+    pitch: float,
+    pitch_deg: float,
+    p: BoxAssociationParams,
+) -> Floats:
+    """(N, M) half the squared distances between where feet are seen and those of plants stand; 0 where not seen."""
+    told = camera.z / np.maximum(plants.xy[:, 0] - camera.x, 0.3)
     scale = camera.width_px / 640 / camera.fx
-    std = np.sqrt((p.foot_px * scale) ** 2 + math.radians(p.pitch_deg) ** 2 + (p.range_share * told) ** 2)
-    off = (down[:, None] - told[None]) / std[None]
-    hidden = ~np.isfinite(down) | (boxes[:, 3] > camera.height_px - 1.0)
-    return np.where(hidden[:, None], 0.0, off**2)
+    std = np.sqrt((p.foot_px * scale) ** 2 + math.radians(pitch_deg) ** 2 + (p.range_share * told) ** 2)
+    off = (np.tan(down + pitch)[:, None] - told[None]) / std[None]
+    return np.nan_to_num(0.5 * off**2, nan=0.0)
 
 
 def corners_of(objects: tuple[DetectedObject, ...]) -> Floats:

@@ -41,7 +41,7 @@ def test_orchards_that_are_scored_on_are_not_tuned_on() -> None:
 
 
 def test_a_station_that_was_not_reached_is_no_success_and_no_deviation() -> None:
-    found = tracking([result(0.05, -0.15), result(0.0, None)])
+    found = tracking([(0.05, -0.15), (0.0, None)])
     assert found.mean == pytest.approx(0.2 / 3)
     assert found.rms == pytest.approx(np.sqrt((0.05**2 + 0.15**2) / 3))
     assert found.success == pytest.approx(2 / 4)
@@ -70,7 +70,7 @@ def test_a_segment_is_driven_close_to_its_middle_and_kept(tmp_path: Path) -> Non
     assert driven.why == ""
     assert all(off is not None for off in driven.off)
     assert len(driven.off) == len(STATIONS)
-    assert tracking([driven]).mean < 0.10  # m: what paper B counts as driven well
+    assert tracking([driven.off]).mean < 0.10  # m: what paper B counts as driven well
     assert driven.ours is not None
     assert driven.published is not None
     assert driven.ours.trees == driven.published.trees
