@@ -19,6 +19,7 @@ from navcore.messages.camera import (
     ScannedPlant,
 )
 from navcore.messages.camera_mount import CameraMount, MountAgreement
+from navcore.messages.cloud import LidarCloud
 from navcore.messages.mission_plan import USUAL_WIDTH, MissionPlan, PathSegment, PlannedTrunk, Point, SegmentKind
 from navcore.messages.recorder import RecorderStatus
 from navcore.messages.request import LinkLossPolicy, Reply, Request, RequestKind
@@ -43,6 +44,7 @@ __all__ = [
     "ImageLine",
     "ImagePoint",
     "ImuSample",
+    "LidarCloud",
     "LidarScan",
     "LinkLossPolicy",
     "MissionPlan",
