@@ -8,7 +8,7 @@ import numpy as np
 
 from navcore.geometry.point_cloud import PointCloud
 
-STEP_M = 0.0025
+_STEP_M = 0.0025
 _TIME_STEP_S = 1e-5
 _FARTHEST = np.iinfo(np.int16).max
 
@@ -35,10 +35,10 @@ class LidarCloud:
 
 def packed(stamp_ns: int, cloud: PointCloud) -> LidarCloud:
     """A cloud as a message."""
-    kept = cloud.where(np.all(np.abs(cloud.points) < _FARTHEST * STEP_M, axis=1))
+    kept = cloud.where(np.all(np.abs(cloud.points) < _FARTHEST * _STEP_M, axis=1))
     return LidarCloud(
         stamp_ns=stamp_ns,
-        points=np.rint(kept.points / STEP_M).astype("<i2").tobytes(),
+        points=np.rint(kept.points / _STEP_M).astype("<i2").tobytes(),
         ages=np.rint(np.clip(-kept.times, 0.0, 0.65) / _TIME_STEP_S).astype("<u2").tobytes(),
         intensities=kept.intensities.tobytes(),
         rings=kept.rings.tobytes(),
@@ -48,7 +48,7 @@ def packed(stamp_ns: int, cloud: PointCloud) -> LidarCloud:
 def unpacked(message: LidarCloud) -> PointCloud:
     """A message's points."""
     return PointCloud(
-        points=np.frombuffer(message.points, dtype="<i2").reshape(-1, 3) * STEP_M,
+        points=np.frombuffer(message.points, dtype="<i2").reshape(-1, 3) * _STEP_M,
         times=np.frombuffer(message.ages, dtype="<u2") * -_TIME_STEP_S,
         intensities=np.frombuffer(message.intensities, dtype=np.uint8),
         rings=np.frombuffer(message.rings, dtype=np.uint8),
