@@ -29,7 +29,7 @@ export function TrunkCard({ siteId, trunk, onDrive, onClose }: Props) {
     <Paper className={css.card} shadow="md" p="sm">
       <b>{trunkWords(trunk)}</b>
       {onDrive && address && (
-        <Button size="lg" onClick={drive}>
+        <Button size="lg" className={css.go} onClick={drive}>
           Drive to this trunk
         </Button>
       )}
