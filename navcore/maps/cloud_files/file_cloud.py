@@ -49,7 +49,8 @@ def file_cloud(columns: Mapping[str, Column], source: str, *, crs: str | None = 
     missing = [axis for axis in "xyz" if axis not in by_name]
     if missing:
         raise CloudError(f"{source} has no field {missing[0]}; give points with fields x, y and z in metres.")
-    points = np.column_stack([np.asarray(by_name[axis], dtype=np.float64) for axis in "xyz"])
+    with np.errstate(invalid="ignore"):  # some NaN are the signalling kind
+        points = np.column_stack([np.asarray(by_name[axis], dtype=np.float64) for axis in "xyz"])
     finite = np.asarray(np.isfinite(points).all(axis=1))
     if (beyond := np.flatnonzero(finite & (np.abs(points) > _BEYOND_EARTH).any(axis=1))).size:
         raise CloudError(f"{source}: point {beyond[0] + 1} is further away than anything on Earth; export it again.")
@@ -73,7 +74,8 @@ def _near(points: Floats) -> tuple[Floats, tuple[float, float, float]]:
 def _bytes(columns: Mapping[str, Column], names: tuple[str, ...], points: Floats) -> NDArray[np.uint8]:
     for name in names:
         if name in columns:
-            values = np.nan_to_num(np.asarray(columns[name], dtype=np.float64), nan=0.0, posinf=255.0, neginf=0.0)
+            with np.errstate(invalid="ignore"):
+                values = np.nan_to_num(np.asarray(columns[name], dtype=np.float64), posinf=255.0, neginf=0.0)
             return np.rint(np.clip(values, 0.0, 255.0)).astype(np.uint8)
     return np.zeros(len(points), dtype=np.uint8)
 
@@ -82,6 +84,7 @@ def _times(columns: Mapping[str, Column], n: int) -> Floats:
     """A time column counts if it can be seconds before a stamp; clocks and counts from a start are left out."""
     if "time" not in columns or columns["time"].dtype.kind != "f":
         return np.zeros(n)
-    times = np.asarray(columns["time"], dtype=np.float64)
+    with np.errstate(invalid="ignore"):
+        times = np.asarray(columns["time"], dtype=np.float64)
     meant = np.isfinite(times).all() and bool(((times <= 0.0) & (times > -_LONGEST_TURN_S)).all())
     return times if meant else np.zeros(n)
