@@ -13,7 +13,7 @@ from navcore.drivers.lidar3d.models import CHANNELS, FIRINGS, LidarModel
 
 Floats = NDArray[np.float64]
 _ECHO = np.dtype([("distance", "<u2"), ("intensity", "u1")])
-_BLOCK = np.dtype([("flag", "<u2"), ("azimuth", "<u2"), ("echoes", _ECHO, (FIRINGS, CHANNELS))])
+BLOCK = np.dtype([("flag", "<u2"), ("azimuth", "<u2"), ("echoes", _ECHO, (FIRINGS, CHANNELS))])
 
 
 class Rays(NamedTuple):
@@ -46,11 +46,11 @@ def rays_of(packets: Sequence[DataPacket], turned_deg: Floats, began_us: Floats,
     """
     echoes = 2 if packets[0].dual else 1
     groups = BLOCKS // echoes
-    blocks = np.frombuffer(b"".join(packet.blocks for packet in packets), _BLOCK)
+    blocks = np.frombuffer(b"".join(packet.blocks for packet in packets), BLOCK)
     # Packet, group of blocks that tell of the same rays, firing, channel, echo.
     told = blocks["echoes"].reshape(-1, groups, echoes, FIRINGS, CHANNELS).transpose(0, 1, 3, 4, 2)
     shape = told.shape
-    in_block = _ray_us(model)
+    in_block = ray_us(model)
     us = began_us[:, None, None, None] + model.block_us * np.arange(groups)[:, None, None] + in_block
     first = turned_deg[:, ::echoes]
     turned = first[..., None, None] + _steps(first)[..., None, None] * (in_block / model.block_us)
@@ -68,10 +68,10 @@ def packet_us(model: LidarModel, *, dual: bool) -> float:
 
 def last_ray_us(model: LidarModel, *, dual: bool) -> float:
     """From a packet's first ray to its last one."""
-    return packet_us(model, dual=dual) - model.block_us + float(_ray_us(model)[-1, -1])
+    return packet_us(model, dual=dual) - model.block_us + float(ray_us(model)[-1, -1])
 
 
-def _ray_us(model: LidarModel) -> Floats:
+def ray_us(model: LidarModel) -> Floats:
     """(2, 16) from a block's first ray to each."""
     firing, channel = np.arange(FIRINGS)[:, None], np.arange(CHANNELS)
     return np.asarray(firing * model.firing_us + channel * model.channel_us)

@@ -6,7 +6,7 @@ from enum import StrEnum
 
 
 class Refused(StrEnum):
-    """Counted by reason; the text is for the operator."""
+    """Counted by reason; the text is for the operator. From CLOCK_JUMP on it is a turn that is dropped."""
 
     FOREIGN = "no packet of this LiDAR"
     SHORT = "cut short on its way"
@@ -16,5 +16,6 @@ class Refused(StrEnum):
     REPEATED = "came twice"
     LATE = "older than the one before"
     CLOCK_JUMP = "its clock jumped"
+    SILENCE = "no packets for a while"
     AZIMUTH_BACK = "its head jumped back"
     TORN_TURN = "turn with too many packets lost"

@@ -20,6 +20,7 @@ from navcore.geometry.point_cloud import PointCloud
 # Packets of a head that never comes round are not kept for ever.
 MOST_PACKETS = 2048
 _REFUSED = {Step.REPEATED: Refused.REPEATED, Step.LATE: Refused.LATE}
+_BROKEN = {Step.JUMPED: Refused.CLOCK_JUMP, Step.SILENCE: Refused.SILENCE}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -99,8 +100,8 @@ class Turns:
         if step in _REFUSED:
             self.refused[_REFUSED[step]] += 1
             return None
-        if step is Step.JUMPED:
-            self._begin_anew(Refused.CLOCK_JUMP)
+        if step in _BROKEN:
+            self._begin_anew(_BROKEN[step])
         elif self._now.placed:
             self._count_lost(self._clock.us - before_us, packet)
         return self._keep(packet, self._clock.us - (lead_us or span_us))
