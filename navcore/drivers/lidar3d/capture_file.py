@@ -76,7 +76,7 @@ class CaptureFile:
             return dpkt.pcap.UniversalReader(_Bounded(file))
         except (ValueError, dpkt.UnpackError) as error:
             raise LogError(
-                f"{self._path} is no capture of network packets (pcap or pcapng); record one with tcpdump or Wireshark."
+                f"{self._path} is no capture of network packets (pcap, pcapng); record one with tcpdump or Wireshark."
             ) from error
 
     def _frames(self, reader: Any) -> Iterator[tuple[Any, bytes]]:
