@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -65,9 +66,8 @@ class Deskew:
         outside_ns = round(self._p.outside_s / NS)
         if track.stamps_ns[0] - outside_ns > began_ns or track.stamps_ns[-1] + outside_ns < stamp_ns:
             return "the robot's motion during the scan is not known: odometry or IMU are missing or late"
-        known = np.array(track.stamps_ns)
-        within = known[max(track.interval(began_ns), 0) : track.interval(stamp_ns) + 2]
-        if float(np.diff(within).max()) * NS > self._p.gap_s:
+        within = track.stamps_ns[track.interval(began_ns) : track.interval(stamp_ns) + 2]
+        if max(after - before for before, after in pairwise(within)) * NS > self._p.gap_s:
             return "odometry and IMU were silent during the scan"
         return ""
 

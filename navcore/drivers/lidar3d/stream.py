@@ -23,10 +23,13 @@ class LidarStream:
 
     Args:
         model: None to learn it from the packets: a VLP-16's data say it, and a C16's device packets.
+        incomplete: tell also turns whose beginning or, by `flush`, whose end was not seen.
     """
 
-    def __init__(self, model: LidarModel | None, params: TurnsParams = TurnsParams()) -> None:
-        self._params = params
+    def __init__(
+        self, model: LidarModel | None, params: TurnsParams = TurnsParams(), *, incomplete: bool = False
+    ) -> None:
+        self._params, self._incomplete = params, incomplete
         self.refused: Counter[Refused] = Counter()
         self.packets = 0
         self.device: DeviceInfo | None = None
@@ -65,8 +68,12 @@ class LidarStream:
         self.utc, self._wrong_data = packet.utc, ""
         return turns.add(packet, arrived_ns)
 
+    def flush(self) -> Turn | None:
+        """What came of a turn whose end never did."""
+        return self._turns.flush() if self._turns else None
+
     def _of(self, model: LidarModel) -> Turns:
-        return Turns(model, self.refused, self._params)
+        return Turns(model, self.refused, self._params, incomplete=self._incomplete)
 
     def _learn(self, data: bytes) -> Turns | None:
         told = told_model(data) if is_data(data) else ""

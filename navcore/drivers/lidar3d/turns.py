@@ -48,12 +48,14 @@ class Turn:
         stamp_ns: when its last ray was taken. period_s: from its first ray to that.
         cloud: its echoes in `lidar3d`; their times count from `stamp_ns`.
         lost: packets that were missing in it.
+        whole: its beginning and its end were seen.
     """
 
     stamp_ns: int
     period_s: float
     cloud: PointCloud
     lost: int
+    whole: bool = True
 
 
 class _Placed(NamedTuple):
@@ -66,26 +68,30 @@ class _Placed(NamedTuple):
 
 @dataclass(slots=True)
 class _Gathered:
-    """What came of a turn so far. whole: since its beginning. number: of the turn."""
+    """What came of a turn so far. begun: since its beginning. number: of the turn."""
 
     placed: list[_Placed] = field(default_factory=list)
     lost: int = 0
-    whole: bool = False
+    begun: bool = False
     number: int = 0
 
 
 class Turns:
-    """Gathers packets until the head has come round; what came before the first full turn is not told.
+    """Gathers packets until the head has come round.
 
     Attributes:
         model: of the LiDAR; a calibrated one may take its place at any time.
         refused: packets and turns by reason, counted on in the one that is handed in. lost: packets, in all.
+
+    Args:
+        incomplete: tell also what came before the first whole turn, and after the last one by `flush`.
     """
 
     def __init__(
-        self, model: LidarModel, refused: Counter[Refused] | None = None, params: TurnsParams = TurnsParams()
-    ) -> None:
-        self.model, self._p = model, params
+        self, model: LidarModel, refused: Counter[Refused] | None = None, params: TurnsParams = TurnsParams(), *,
+        incomplete: bool = False,
+    ) -> None:  # fmt: skip
+        self.model, self._p, self._incomplete = model, params, incomplete
         self.refused: Counter[Refused] = Counter() if refused is None else refused
         self.lost = 0
         self._clock = PacketClock(model.counter_us, params.clock)
@@ -105,6 +111,11 @@ class Turns:
         elif self._now.placed:
             self._count_lost(self._clock.us - before_us, packet)
         return self._keep(packet, self._clock.us - (lead_us or span_us))
+
+    def flush(self) -> Turn | None:
+        """What came of a turn whose end never did."""
+        done, self._now = self._now, _Gathered()
+        return self._turn(done, whole=False) if self._incomplete and done.placed else None
 
     def _begin_anew(self, reason: Refused) -> None:
         self.refused[reason] += 1
@@ -144,22 +155,24 @@ class Turns:
     def _close(self, number: int) -> Turn | None:
         """The turn before `number`; None if its beginning was not seen or too much of it was lost."""
         done = self._now
-        self._now = _Gathered(placed=done.placed[-1:], whole=True, number=number)
-        if not done.whole:
+        self._now = _Gathered(placed=done.placed[-1:], begun=True, number=number)
+        if not (done.begun or self._incomplete):
             return None
         if done.lost > self._p.most_lost * (done.lost + len(done.placed)):
             self.refused[Refused.TORN_TURN] += 1
             return None
-        return self._turn(done)
+        return self._turn(done, whole=done.begun)
 
-    def _turn(self, done: _Gathered) -> Turn:
+    def _turn(self, done: _Gathered, *, whole: bool) -> Turn | None:
         packets, turned, began_us = zip(*done.placed, strict=True)
         rays = rays_of(packets, np.array(turned) / 100.0, np.array(began_us), self.model)
         rays = rays.where(np.floor(rays.turned_deg / 360.0) == done.number)
+        if not len(rays.us):
+            return None
         end_us = float(rays.us[-1])
         return Turn(
             stamp_ns=self._clock.stamp_ns(end_us), period_s=(end_us - float(rays.us[0])) * 1e-6,
-            cloud=self._cloud(rays, end_us), lost=done.lost,
+            cloud=self._cloud(rays, end_us), lost=done.lost, whole=whole,
         )  # fmt: skip
 
     def _cloud(self, rays: Rays, end_us: float) -> PointCloud:

@@ -8,6 +8,7 @@ import socket
 import threading
 import time
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 
 import pytest
 
@@ -114,9 +115,7 @@ def test_a_lidar_that_is_switched_off_is_told_and_one_that_comes_back_is_read_ag
 
 def test_another_senders_packets_are_passed_over_and_named(params: Lidar3dParams) -> None:
     turns: list[Turn] = []
-    only = Lidar3dParams(
-        model="c16", listen=HOME, port=params.port, device_port=params.device_port, sender="127.0.0.2", silent_s=0.3, reconnect_s=0.01
-    )  # fmt: skip
+    only = replace(params, sender="127.0.0.2")
     with reading(only, turns) as reader:
         with sending(SECOND, only, "127.0.0.3"):
             wait_for(lambda: reader.problem == "packets come from 127.0.0.3, but the LiDAR is set to be at 127.0.0.2")
@@ -137,9 +136,7 @@ def test_another_senders_packets_are_passed_over_and_named(params: Lidar3dParams
 )
 def test_what_is_no_sound_lidar_is_named(data: tuple[bytes, ...], problem: str, params: Lidar3dParams) -> None:
     turns: list[Turn] = []
-    both = Lidar3dParams(
-        model="c16", listen=HOME, port=params.port, device_port=params.port, silent_s=0.4, reconnect_s=0.01
-    )  # fmt: skip
+    both = replace(params, device_port=params.port)
     with reading(both, turns) as reader, sending(data, both):
         wait_for(lambda: reader.problem.startswith(problem.format(port=params.port)))
     assert not turns

@@ -62,6 +62,16 @@ def test_every_point_is_where_the_independent_decoder_finds_it(
         assert turn.cloud.intensities.tolist() == [ray.intensity for ray in echoes]
 
 
+def test_with_the_incomplete_turns_no_point_is_missing(recording: list[Datagram]) -> None:
+    stream = LidarStream(None, incomplete=True)
+    turns = [*fed(stream, [(d.data, d.arrived_ns) for d in recording]), stream.flush()]
+    ours = np.concatenate([turn.cloud.points for turn in turns if turn is not None])
+    rays = [ray for d in recording if len(d.data) == 1206 for ray in plain_vlp16(d.data)]
+    theirs = np.array([ray.xyz for ray in rays if ray.xyz is not None])
+    assert ours.shape == theirs.shape
+    assert np.abs(ours - theirs).max() < 1e-6  # m
+
+
 def test_every_point_has_the_independent_decoders_time(turns: list[Turn], plain: list[list[PlainRay]]) -> None:
     for turn, rays in zip(turns, plain, strict=True):
         times = np.array([ray.us for ray in rays if ray.xyz is not None]) - rays[-1].us
