@@ -80,9 +80,7 @@ class Lidar3dParams:
 
 C16 = Lidar3dParams()
 VLP16 = Lidar3dParams(beam_period_s=2.304e-6, resolution=0.002)
-FLAWLESS_3D = Lidar3dParams(
-    noise=0.0, beam_offset_std=0.0, missing=0.0, strength=1e6, edge_gap=0.0, resolution=1e-4
-)
+FLAWLESS_3D = Lidar3dParams(noise=0.0, beam_offset_std=0.0, missing=0.0, strength=1e6, edge_gap=0.0, resolution=1e-4)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -161,9 +161,7 @@ def measure(
 
 
 @inlined
-def beside_an_edge(
-    optics: Optics, echoes: Echoes, i: int, j: int, c: int, lie: float
-) -> tuple[float, float, int]:
+def beside_an_edge(optics: Optics, echoes: Echoes, i: int, j: int, c: int, lie: float) -> tuple[float, float, int]:
     """Distance, light and part of ray (i, c) whose spot may lie partly on what the ray beside it, (j, c), met.
 
     The edge is `lie` (0 to 1) of the step between the two away. Echoes from far apart are told apart and the own one
