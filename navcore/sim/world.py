@@ -21,6 +21,7 @@ from navcore.sim.map_error import MapErrorParams, perturb
 from navcore.sim.orchard import OrchardParams, build_orchard
 from navcore.sim.parking import parked
 from navcore.sim.terrain import SURFACE_TRAITS, Surface, Terrain, TerrainParams
+from navcore.sim.trellis.trellised import Trellised, trellised
 from navcore.sim.vehicle_dynamics import VehicleDynamics, VehicleDynamicsParams, WheelState
 from navcore.vehicle import VehicleParams
 
@@ -227,6 +228,15 @@ class World:
             yaw=d.yaw,
             ground=self._terrain.height(d.x, d.y),
         )
+
+    @property
+    def terrain(self) -> Terrain:
+        """The land."""
+        return self._terrain
+
+    def trellised(self) -> Trellised:
+        """All that stands here as a 3D LiDAR sees it."""
+        return trellised(self.site, self.orchard, self._terrain)
 
     def _truth(self) -> SimTruth:
         d = self._drive
