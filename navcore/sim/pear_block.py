@@ -1,7 +1,7 @@
-"""Paper C's orchard by seed: a Y-trellised pear block, rows 6 m apart, trees 3 m, with headlands to turn on.
+"""Paper C's orchard by seed: a Y-trellised pear block, rows 6 m apart, trees 3 m, headlands to turn on.
 
-Every post and tree is surveyed where it stands, so the block is the same for every world's seed. Blocks to tune on and
-blocks to score on can never be the same.
+Every post and tree is surveyed where it stands, so the block is the same for every world's seed.
+Blocks to tune on and blocks to score on can never be the same.
 """
 
 from __future__ import annotations
