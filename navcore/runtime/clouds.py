@@ -72,33 +72,48 @@ class RealClouds:
         self._reader.stop()
 
 
-class SimulatedClouds:
-    """Cast here, from the world's truth, so that no cloud crosses a process on its way to the map."""
+class SimulatedHead:
+    """The simulated LiDAR's head, carried by the true robot."""
 
-    def __init__(
-        self, endpoints: Endpoints, trellis: Trellised, terrain: Terrain, mount: LidarMount, seed: int
-    ) -> None:
+    def __init__(self, trellis: Trellised, terrain: Terrain, mount: LidarMount, seed: int) -> None:
         self.T_base_lidar = SE3.from_rpy((mount.x, mount.y, mount.z), mount.roll, mount.pitch, mount.yaw)
         self._lidar = Lidar3d(trellis.scene, mount, C16, seed)
         self._terrain = terrain
         self._turn_ns = round(C16.turn_s / NS)
         self._truths: deque[SimTruth] = deque(maxlen=_KEPT_TRUTHS)
         self._due_ns = 0
+
+    def follow(self, truth: SimTruth) -> None:
+        """Where the robot truly is now."""
+        self._truths.append(truth)
+
+    def turn(self) -> StampedCloud | None:
+        """The turn that ends now, if one is due and the robot's way during it is known."""
+        if not self._truths or self._truths[-1].stamp_ns < self._due_ns:
+            return None
+        stamp_ns = self._truths[-1].stamp_ns
+        self._due_ns = max(self._due_ns + self._turn_ns, stamp_ns + self._turn_ns // 2)
+        if self._truths[0].stamp_ns > stamp_ns - self._turn_ns:
+            return None
+        stamps_ns = [truth.stamp_ns for truth in self._truths]
+        turn = self._lidar.turn(stamp_ns, stamps_ns, [pose_of(truth, self._terrain) for truth in self._truths])
+        return StampedCloud(stamp_ns, turn.cloud)
+
+
+class SimulatedClouds:
+    """Cast here, from the world's truth, so that no cloud crosses a process on its way to the map."""
+
+    def __init__(self, endpoints: Endpoints, head: SimulatedHead) -> None:
+        self.T_base_lidar = head.T_base_lidar
+        self._head = head
         self._bus = Subscriber(endpoints, (SIM_TRUTH.name,), queue_length=_KEPT_TRUTHS)
 
     def take(self) -> tuple[StampedCloud, ...]:
         """See `Clouds`."""
         while (received := self._bus.receive(0)) is not None:
-            self._truths.append(decode(SimTruth, received.payload))
-        if not self._truths or self._truths[-1].stamp_ns < self._due_ns:
-            return ()
-        stamp_ns = self._truths[-1].stamp_ns
-        self._due_ns = max(self._due_ns + self._turn_ns, stamp_ns + self._turn_ns // 2)
-        if self._truths[0].stamp_ns > stamp_ns - self._turn_ns:
-            return ()
-        stamps_ns = [truth.stamp_ns for truth in self._truths]
-        turn = self._lidar.turn(stamp_ns, stamps_ns, [pose_of(truth, self._terrain) for truth in self._truths])
-        return (StampedCloud(stamp_ns, turn.cloud),)
+            self._head.follow(decode(SimTruth, received.payload))
+        turn = self._head.turn()
+        return () if turn is None else (turn,)
 
     def close(self) -> None:
         """See `Clouds`."""

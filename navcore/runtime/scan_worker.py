@@ -9,21 +9,18 @@ from __future__ import annotations
 import argparse
 import signal
 import time
-from collections import deque
 from dataclasses import replace
 from pathlib import Path
 
 import msgspec
 
 from navcore.config import RobotConfig, load_config
-from navcore.geometry.se3 import SE3
-from navcore.localization.deskew import Deskew
-from navcore.localization.motion_track import MotionTrack
 from navcore.messages import MapMatch, MatchState, Odometry
 from navcore.messages.cloud import packed
 from navcore.promptness import be_prompt
 from navcore.runtime.clock import Every, Ticker
-from navcore.runtime.clouds import Clouds, RealClouds, SimulatedClouds, StampedCloud
+from navcore.runtime.cloud_matcher import MOTIONS, CloudMatcher
+from navcore.runtime.clouds import Clouds, RealClouds, SimulatedClouds, SimulatedHead, StampedCloud
 from navcore.runtime.map_file import MapFile, map_beside
 from navcore.runtime.simulation import SimulationParams
 from navcore.runtime.site_file import read_site
@@ -34,7 +31,6 @@ from navcore.transport.pubsub import Publisher, Subscriber
 
 TICK_NS = 10_000_000
 LOOK_NS = 2_000_000_000
-MOTIONS = 30
 PRIORITY = 3  # before pages, after whoever ticks and whoever sees rows
 
 
@@ -43,8 +39,7 @@ class ScanWorker:
 
     def __init__(self, endpoints: Endpoints, clouds: Clouds, map_file: MapFile) -> None:
         self._clouds, self._map = clouds, map_file
-        self._deskew = Deskew(clouds.T_base_lidar)
-        self._motions: deque[Odometry] = deque(maxlen=MOTIONS)
+        self._matcher = CloudMatcher(clouds.T_base_lidar)
         self._publisher = Publisher(endpoints, "scan_worker")
         self._bus = Subscriber(endpoints, (NAV_ODOMETRY.name,), queue_length=MOTIONS)
         self._look = Every(LOOK_NS)
@@ -54,7 +49,7 @@ class ScanWorker:
         if self._look.due(time.monotonic_ns()):
             self._map.look()
         while (received := self._bus.receive(0)) is not None:
-            self._motions.append(decode(Odometry, received.payload))
+            self._matcher.hear(decode(Odometry, received.payload))
         for turn in self._clouds.take():
             self._publisher.publish(LIDAR_CLOUD.name, packed(turn.stamp_ns, turn.cloud))
             match = self._match(turn)
@@ -71,29 +66,7 @@ class ScanWorker:
         localizer = self._map.localizer
         if localizer is None:
             return MapMatch(stamp_ns=turn.stamp_ns, state=MatchState.NO_MAP, reason=self._map.reason)
-        if len(self._motions) < 2:
-            return _silent(turn, "the navigator tells no motion")
-        track = MotionTrack.of_poses([m.stamp_ns for m in self._motions], [_in_odom(m) for m in self._motions])
-        still = self._deskew.process(turn.cloud, turn.stamp_ns, track)
-        if still.cloud is None:
-            return _silent(turn, still.reason)
-        points = self._clouds.T_base_lidar.apply(still.cloud.points)
-        return localizer.process(points, turn.stamp_ns, self._motion_at(turn.stamp_ns, track))
-
-    def _motion_at(self, stamp_ns: int, track: MotionTrack) -> Odometry:
-        """The navigator's word of that moment, its place by odometry carried to it exactly."""
-        nearest = min(self._motions, key=lambda motion: abs(motion.stamp_ns - stamp_ns))
-        at = track.T_still_base(stamp_ns)
-        roll, pitch, yaw = at.rpy()
-        return replace(nearest, x=float(at.t[0]), y=float(at.t[1]), yaw=yaw, roll=roll, pitch=pitch)
-
-
-def _in_odom(motion: Odometry) -> SE3:
-    return SE3.from_rpy((motion.x, motion.y, 0.0), motion.roll, motion.pitch, motion.yaw)
-
-
-def _silent(turn: StampedCloud, reason: str) -> MapMatch:
-    return MapMatch(stamp_ns=turn.stamp_ns, state=MatchState.LOST, reason=reason)
+        return self._matcher.match(turn, localizer)
 
 
 def main() -> None:
@@ -124,8 +97,8 @@ def _clouds(endpoints: Endpoints, site: Path, params: SimulationParams | None, c
     if params is None:
         return RealClouds(config.lidar3d)
     world = params.world(read_site(site), config.vehicle_params(), 0)
-    mount = config.lidar3d.mount
-    return SimulatedClouds(endpoints, world.trellised(), world.terrain, mount, params.world_seed)
+    head = SimulatedHead(world.trellised(), world.terrain, config.lidar3d.mount, params.world_seed)
+    return SimulatedClouds(endpoints, head)
 
 
 if __name__ == "__main__":
