@@ -130,16 +130,13 @@ def test_a_lidar_that_is_switched_off_and_on_goes_on_with_a_new_turn() -> None:
     assert shown(turns)
 
 
-def test_a_change_of_return_mode_begins_a_new_turn() -> None:
-    dual = tuple(d for d in datagrams(ModelName.C16, dual=True) if d.startswith(b"\xff\xee"))
-    changed = [
-        (with_clock(data, 300_000 + 600 * n), COMING[-1][1] + (n + 1) * PACKET_NS // 2) for n, data in enumerate(dual)
-    ]
-    stream = LidarStream(C16)
-    turns = fed(stream, [(with_clock(d, 1200 * n % 1_000_000), at) for n, (d, at) in enumerate(COMING[:240])])
-    turns += fed(stream, [(d, at - COMING[-1][1] + COMING[239][1]) for d, at in changed])
+def test_a_change_of_return_mode_drops_the_turn() -> None:
+    """At 168 ms, in the middle of the second turn; the third is whole."""
+    dual = [d for d in datagrams(ModelName.C16, dual=True) if d.startswith(b"\xff\xee")]
+    changed = [(data, COMING[140][1] + n * PACKET_NS // 2) for n, data in enumerate(dual[280:])]
+    turns = fed(LidarStream(C16), COMING[:140] + changed)
+    assert [len(turn.cloud) for turn in turns] == pytest.approx([32_000], abs=16)
     assert shown(turns)
-    assert len(turns) >= 3
 
 
 @pytest.mark.parametrize(
