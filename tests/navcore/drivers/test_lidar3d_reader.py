@@ -106,7 +106,9 @@ def test_a_lidar_that_is_switched_off_is_told_and_one_that_comes_back_is_read_ag
         with sending(SECOND, params):
             wait_for(lambda: len(turns) >= 1)
         wait_for(lambda: "nothing comes from the LiDAR on port" in reader.problem)
-        assert "is it switched on, and set to send to this computer's address?" in reader.problem
+        assert reader.problem.endswith(
+            "is it switched on, and set to send to this computer's address? If it sends to all, listen at 0.0.0.0."
+        )
         seen = len(turns)
         with sending(SECOND, params):
             wait_for(lambda: len(turns) > seen and reader.problem == "")
