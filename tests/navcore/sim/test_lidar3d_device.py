@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from navcore.drivers.lidar3d.models import CHANNELS, MODELS, LidarModel, ModelName
@@ -17,6 +17,7 @@ from navcore.sim.lidar3d_sweep import firing_step_deg, sweep
 from tests.navcore.drivers.lidar3d_scenes import arrivals, fed, room_cloud
 
 
+@settings(deadline=None)
 @given(name=st.sampled_from(ModelName), seed=st.integers(0, 2**32 - 1))
 def test_direction_and_distance_are_found_again_from_where_a_ray_ends(name: ModelName, seed: int) -> None:
     model, rng, n = MODELS[name], np.random.default_rng(seed), 50
