@@ -65,12 +65,13 @@ class RobotConfig:
 
 def _with_antenna(params: NavigatorParams, vehicle: VehicleParams) -> NavigatorParams:
     """Where the antenna stands is a fact of the vehicle, told to all who need it."""
-    antenna = {"antenna_x": vehicle.antenna_x, "antenna_y": vehicle.antenna_y}
-    gnss = dataclasses.replace(params.filter.gnss, **antenna)
+    x, y = vehicle.antenna_x, vehicle.antenna_y
+    gnss = dataclasses.replace(params.filter.gnss, antenna_x=x, antenna_y=y)
     return dataclasses.replace(
         params,
         filter=dataclasses.replace(params.filter, gnss=gnss),
-        check=dataclasses.replace(params.check, **antenna),
+        check=dataclasses.replace(params.check, antenna_x=x, antenna_y=y),
+        on_map=dataclasses.replace(params.on_map, antenna_x=x, antenna_y=y),
     )
 
 
