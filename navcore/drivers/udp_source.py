@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import select
+import selectors
 import socket
 from collections.abc import Sequence
 
@@ -30,9 +30,11 @@ class UdpSource:
         self._sender = sender
         self.strangers: dict[str, int] = {}
         self._sockets: list[socket.socket] = []
+        self._selector = selectors.DefaultSelector()
         try:
             for port in ports:
                 self._sockets.append(_bound(address, port))
+                self._selector.register(self._sockets[-1], selectors.EVENT_READ, len(self._sockets) - 1)
         except OSError:
             self.close()
             raise
@@ -44,8 +46,8 @@ class UdpSource:
 
     def read(self) -> bytes:
         """A datagram, empty if none came within WAIT_S seconds."""
-        for ready in select.select(self._sockets, (), (), WAIT_S)[0]:
-            data, (host, _) = ready.recvfrom(LONGEST_BYTES)
+        for ready, _ in self._selector.select(WAIT_S):
+            data, (host, _port) = self._sockets[ready.data].recvfrom(LONGEST_BYTES)
             if not self._sender or host == self._sender:
                 return bytes(data)
             if host in self.strangers or len(self.strangers) < MOST_STRANGERS:
@@ -58,6 +60,7 @@ class UdpSource:
 
     def close(self) -> None:
         """Give the ports back."""
+        self._selector.close()
         for each in self._sockets:
             each.close()
 

@@ -1,4 +1,4 @@
-"""Where a 2D LiDAR sits on the robot: its rays' ends in the robot's frame."""
+"""Where a LiDAR sits on the robot: its rays' ends in the robot's frame."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LidarMount:
-    """Mount of `lidar2d` in `base_link` (whose origin lies on the ground under the robot's centre).
+    """Mount of `lidar2d` or `lidar3d` in `base_link` (whose origin lies on the ground under the robot's centre).
 
     Attributes:
         x, y, z: the sensor's centre, m.
@@ -33,7 +33,7 @@ class LidarMount:
         return rotation_from_rpy(self.roll, self.pitch, self.yaw)
 
     def ends(self, angles: Floats, distances: Floats) -> Floats:
-        """Where rays end, (N, 3) in `base_link`, m."""
+        """Where rays in the sensor's plane end, (N, 3) in `base_link`, m."""
         flat = np.column_stack((distances * np.cos(angles), distances * np.sin(angles), np.zeros(len(angles))))
         return np.asarray(flat @ self.R_base_lidar().T + (self.x, self.y, self.z))
 

@@ -48,24 +48,27 @@ class Screw:
         if angle < _NO_TURN:
             return Screw(np.array((0.0, 0.0, 1.0)), 0.0, moved.t)
         axis = sine / 2.0 / length
-        across = np.cross(axis, moved.t)
-        half = angle / 2.0
-        rho = moved.t - half * across + (1.0 - half / math.tan(half)) * np.cross(axis, across)
+        K, half = _cross(axis), angle / 2.0
+        rho = moved.t - half * (K @ moved.t) + (1.0 - half / math.tan(half)) * (K @ K @ moved.t)
         return Screw(axis, angle, rho)
 
-    def carry(self, parts: Floats, points: Floats) -> Floats:
-        """Points (N, 3) of the body's frame at the parts (N,) of the interval, in its frame at the begin."""
+    def carry(self, parts: Floats, points: Floats, T_target_begin: SE3 | None = None) -> Floats:
+        """Points (N, 3) of the body's frame at the parts (N,) of the interval, in its frame at the begin, or in the
+        target's.
+        """
+        R, t = (T_target_begin.R, T_target_begin.t) if T_target_begin else (np.eye(3), np.zeros(3))
         if self.angle < _NO_TURN:
-            return np.asarray(points + parts[:, None] * self.rho)
-        K, along = _cross(self.axis), np.outer(self.axis, self.axis)
+            return np.asarray(points @ R.T + t + parts[:, None] * (R @ self.rho))
+        # Rodrigues' formula turns the points; what they move goes evenly along the axis and on an arc around it.
+        K = _cross(self.axis)
+        along = np.outer(self.axis, self.axis) @ self.rho
+        arc = (self.rho - along) / self.angle
         turned = parts * self.angle
         sine, rest = np.sin(turned)[:, None], (1.0 - np.cos(turned))[:, None]
-        arc = (self.rho - along @ self.rho) / self.angle
-        # Rodrigues' formula turns the points; what they move goes evenly along the axis and on an arc around it.
+        held, across, inward = np.split(points @ np.hstack((R.T, (R @ K).T, (R @ K @ K).T)), 3, axis=1)
         return np.asarray(
-            points + sine * (points @ K.T + arc) + rest * (points @ (along - np.eye(3)) + K @ arc)
-            + parts[:, None] * (along @ self.rho)
-        )  # fmt: skip
+            held + sine * (across + R @ arc) + rest * (inward + R @ K @ arc) + parts[:, None] * (R @ along) + t
+        )
 
     def pose(self, part: float = 1.0) -> SE3:
         """At that part of the interval, in the frame at its begin."""

@@ -73,14 +73,14 @@ class Deskew:
 
     def _moved(self, cloud: PointCloud, stamp_ns: int, track: MotionTrack) -> NDArray[np.float64]:
         """Interval by interval of the track, which are a few in each turn."""
-        T_base_lidar, T_lidar_base = self._T_base_lidar, self._T_base_lidar.inverse()
-        T_now_still = T_lidar_base @ track.T_still_base(stamp_ns).inverse()
+        T_base_lidar = self._T_base_lidar
+        T_now_still = (track.T_still_base(stamp_ns) @ T_base_lidar).inverse()
         begins = (np.array(track.stamps_ns) - stamp_ns) * NS
-        interval = np.clip(np.searchsorted(begins, cloud.times, side="right") - 1, 0, len(track.screws) - 1)
+        interval = np.clip(np.searchsorted(begins, cloud.times, side="right") - 1, 0, len(track.poses) - 2)
         moved = np.empty_like(cloud.points)
-        for i in np.unique(interval).tolist():
-            mine = interval == i
+        for i in np.flatnonzero(np.bincount(interval)).tolist():
+            mine = np.flatnonzero(interval == i)
             parts = (cloud.times[mine] - begins[i]) / (begins[i + 1] - begins[i])
-            at_begin = track.screws[i].carry(parts, T_base_lidar.apply(cloud.points[mine]))
-            moved[mine] = (T_now_still @ track.poses[i]).apply(at_begin)
+            T_now_begin = T_now_still @ track.poses[i] @ T_base_lidar
+            moved[mine] = track.screw(i, T_base_lidar).carry(parts, cloud.points[mine], T_now_begin)
         return moved

@@ -23,12 +23,10 @@ class MotionTrack:
 
     Attributes:
         stamps_ns: (M,) growing, M at least 2. poses: T_still_base at those times.
-        screws: (M - 1,) from each to the next.
     """
 
     stamps_ns: tuple[int, ...]
     poses: tuple[SE3, ...]
-    screws: tuple[Screw, ...]
 
     @staticmethod
     def of_poses(stamps_ns: Sequence[int], poses: Sequence[SE3]) -> MotionTrack:
@@ -36,8 +34,7 @@ class MotionTrack:
         _refuse_stamps(stamps_ns, len(poses))
         if not all(np.all(np.isfinite(pose.R)) and np.all(np.isfinite(pose.t)) for pose in poses):
             raise NotFiniteError("A pose of the robot is not finite; leave it out.")
-        screws = tuple(Screw.between(begin, end) for begin, end in pairwise(poses))
-        return MotionTrack(tuple(stamps_ns), tuple(poses), screws)
+        return MotionTrack(tuple(stamps_ns), tuple(poses))
 
     @staticmethod
     def of_rates(stamps_ns: Sequence[int], v: ArrayLike, omega: ArrayLike) -> MotionTrack:
@@ -49,23 +46,24 @@ class MotionTrack:
         if not (np.all(np.isfinite(speeds)) and np.all(np.isfinite(rates))):
             raise NotFiniteError("A speed or turn rate of the robot is not finite; leave it out.")
         seconds = np.diff(np.asarray(stamps_ns, dtype=np.int64)) * NS
-        screws = tuple(
-            Screw.of_rates((speed, 0.0, 0.0), rate, dt)
-            for speed, rate, dt in zip(_means(speeds), _means(rates), seconds.tolist(), strict=True)
-        )
         poses = [SE3.identity()]
-        for screw in screws:
-            poses.append(poses[-1] @ screw.pose())
-        return MotionTrack(tuple(stamps_ns), tuple(poses), screws)
+        for speed, rate, dt in zip(_means(speeds), _means(rates), seconds.tolist(), strict=True):
+            poses.append(poses[-1] @ Screw.of_rates((speed, 0.0, 0.0), rate, dt).pose())
+        return MotionTrack(tuple(stamps_ns), tuple(poses))
 
     def T_still_base(self, stamp_ns: int) -> SE3:
         """Pose then; before the first and after the last one the motion goes on as it was."""
         i = self.interval(stamp_ns)
-        return self.poses[i] @ self.screws[i].pose(self.part(i, stamp_ns))
+        return self.poses[i] @ self.screw(i).pose(self.part(i, stamp_ns))
+
+    def screw(self, i: int, T_base_body: SE3 | None = None) -> Screw:
+        """The motion of `base_link`, or of what is fixed to it, in interval i."""
+        begin, end = self.poses[i], self.poses[i + 1]
+        return Screw.between(begin @ T_base_body, end @ T_base_body) if T_base_body else Screw.between(begin, end)
 
     def interval(self, stamp_ns: int) -> int:
-        """Index of the screw that holds then."""
-        return min(max(bisect_right(self.stamps_ns, stamp_ns) - 1, 0), len(self.screws) - 1)
+        """Index of the one that holds then."""
+        return min(max(bisect_right(self.stamps_ns, stamp_ns) - 1, 0), len(self.poses) - 2)
 
     def part(self, i: int, stamp_ns: int) -> float:
         """Of interval i; outside [0, 1] before and after it."""

@@ -12,6 +12,7 @@ from navcore.errors import ConfigError
 from navcore.geometry.lidar_mount import LidarMount
 from navcore.geometry.se3 import SE3
 
+EVERY_CARD = "0.0.0.0"
 _FARTHEST_MOUNT = 5.0
 _KNOWN = ", ".join(MODELS)
 _BOUNDS = (
@@ -31,7 +32,8 @@ class Lidar3dParams:
 
     Attributes:
         model: "vlp16", "c16" (beams 2 deg apart) or "c16-fine" (1.33 deg); empty for a robot without one.
-        listen: address of the network card that it is plugged into; "0.0.0.0" for every one.
+        listen: address of the network card that it is plugged into; "0.0.0.0" for every one. A LiDAR that sends to
+            all (255.255.255.255), as a new VLP-16 does, is heard only there.
         port, device_port: of this computer, to which it sends data and what it tells of itself; 1 to 65535, the
             second 0 if it is not wanted.
         sender: the LiDAR's own address, by which another device's packets are passed over; empty for any.
@@ -46,7 +48,7 @@ class Lidar3dParams:
     """
 
     model: str = ""
-    listen: str = "0.0.0.0"
+    listen: str = EVERY_CARD
     port: int = 2368
     device_port: int = 2369
     sender: str = ""

@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 from navcore.drivers.byte_source import ByteSource
 from navcore.drivers.kept_connection import KeptConnection
-from navcore.drivers.lidar3d.lidar3d_params import Lidar3dParams
+from navcore.drivers.lidar3d.lidar3d_params import EVERY_CARD, Lidar3dParams
 from navcore.drivers.lidar3d.refusals import Refused
 from navcore.drivers.lidar3d.stream import LidarStream
 from navcore.drivers.lidar3d.turns import Turn
@@ -63,7 +63,8 @@ class Lidar3dReader(KeptConnection):
             return "the LiDAR's head does not turn"
         if refused[Refused.FOREIGN] or refused[Refused.SHORT]:
             return f"what comes on port {self._params.port} is not from a LiDAR that is known here"
+        broadcast = "" if self._params.listen == EVERY_CARD else f" If it sends to all, listen at {EVERY_CARD}."
         return (
             f"nothing comes from the LiDAR on port {self._params.port}: is it switched on, and set to send to this "
-            "computer's address?"
+            f"computer's address?{broadcast}"
         )

@@ -59,6 +59,16 @@ def test_every_point_is_where_the_plain_decoder_finds_it(name: ModelName, dual: 
         assert np.abs(turn.cloud.times - times * 1e-6).max() < 2e-6  # s: packets tell whole microseconds
 
 
+def test_a_turn_is_stamped_when_its_last_ray_was_taken() -> None:
+    """A packet tells the time of its last ray, and comes half a millisecond later at the very best."""
+    data = data_only(ModelName.C16)
+    came = [(d, 10**12 + int.from_bytes(d[1200:1204], "little") * 1000 + 500_000) for d in data]
+    rays = [ray for d in data for ray in plain_c16(d, ModelName.C16, 0.0)]
+    ends = [a.us for a, b in pairwise(rays) if b.turned % 360.0 < a.turned % 360.0 - 180.0]
+    stamps = [turn.stamp_ns - 10**12 for turn in fed(LidarStream(C16), came)]
+    assert stamps == pytest.approx([end * 1000.0 for end in ends[1:]], abs=2000)  # ns: whole us are told
+
+
 def test_a_beam_that_meets_leaves_and_a_wall_tells_both_and_one_that_meets_one_thing_tells_it_once() -> None:
     wall = room_cloud(ModelName.C16)
     leaves = wall.where(np.arange(len(wall)) % 4 == 0)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 from scipy.linalg import expm
@@ -25,12 +25,14 @@ def exponential(v: Floats, omega: Floats, seconds: float) -> Floats:
     return np.asarray(expm(twist * seconds))
 
 
+@settings(deadline=None)
 @given(v=speeds, omega=rates, part=parts)
 def test_its_poses_are_those_of_the_matrix_exponential(v: Floats, omega: Floats, part: float) -> None:
     pose = Screw.of_rates(v, omega, 0.8).pose(part)
     assert pose.matrix() == pytest.approx(exponential(v, omega, 0.8 * part), abs=1e-8)  # m and rad
 
 
+@settings(deadline=None)
 @given(v=speeds, omega=rates, at=rates, part=parts)
 def test_between_two_poses_lies_the_screw_that_leads_from_one_to_the_other(
     v: Floats, omega: Floats, at: Floats, part: float
@@ -41,6 +43,7 @@ def test_between_two_poses_lies_the_screw_that_leads_from_one_to_the_other(
     assert found.pose(part).matrix() == pytest.approx(moved.pose(part).matrix(), abs=1e-7)
 
 
+@settings(deadline=None)
 @given(v=speeds, omega=rates, part=parts)
 def test_carrying_points_is_applying_the_pose(v: Floats, omega: Floats, part: float) -> None:
     screw, points = Screw.of_rates(v, omega, 0.5), np.array(((1.0, 2.0, 3.0), (-20.0, 0.5, 0.0)))

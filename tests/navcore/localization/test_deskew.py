@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 from collections.abc import Callable
 
@@ -39,20 +40,26 @@ def bumpy(t: float) -> SE3:
     return SE3.from_rpy((driven * math.cos(yaw / 2.0), driven * math.sin(yaw / 2.0), 0.0), sway[0], sway[1], yaw)
 
 
-def seen(motion: Motion, mount: SE3 = MOUNT) -> PointCloud:
-    """One turn of a C16 between the planes while the robot moves."""
+@functools.cache
+def seen(motion: Motion) -> PointCloud:
+    """A seventh of a turn's rays of a C16, of all channels, between the planes while the robot moves."""
 
     def scene(origins: Floats, directions: Floats, times: Floats) -> Floats:
-        T = [motion(float(t)) @ mount for t in times]
-        R, t = np.array([pose.R for pose in T]), np.array([pose.t for pose in T])
-        o, d = np.einsum("nij,nj->ni", R, origins) + t, np.einsum("nij,nj->ni", R, directions)
-        with np.errstate(divide="ignore"):
-            far = (PLANES[:, 3] - o @ PLANES[:, :3].T) / (d @ PLANES[:, :3].T)
-        far[far <= 0.0] = np.inf
-        nearest = far.min(axis=1)
-        return np.where(nearest < FARTHEST, nearest, 0.0)
+        met = np.zeros(len(times))
+        met[::7] = _far(origins[::7], directions[::7], [motion(t) @ MOUNT for t in times[::7].tolist()])
+        return met
 
     return swept_cloud(scene, C16)
+
+
+def _far(origins: Floats, directions: Floats, T_still_lidar: list[SE3]) -> Floats:
+    """To the nearest plane, m; 0 for none."""
+    R, t = np.array([pose.R for pose in T_still_lidar]), np.array([pose.t for pose in T_still_lidar])
+    o, d = np.einsum("nij,nj->ni", R, origins) + t, np.einsum("nij,nj->ni", R, directions)
+    with np.errstate(divide="ignore"):
+        far = (PLANES[:, 3] - o @ PLANES[:, :3].T) / (d @ PLANES[:, :3].T)
+    far[far <= 0.0] = np.inf
+    return np.where(far.min(axis=1) < FARTHEST, far.min(axis=1), 0.0)
 
 
 def stamped(motion: Motion, every_ms: int, first_ms: int = -20, last_ms: int = 120) -> MotionTrack:
@@ -107,7 +114,7 @@ def small_cloud(seed: int) -> PointCloud:
     )  # fmt: skip
 
 
-@settings(max_examples=30)
+@settings(max_examples=30, deadline=None)
 @given(seed=st.integers(0, 1000), x=st.floats(-1e3, 1e3), yaw=st.floats(-3.0, 3.0))
 def test_it_does_not_matter_in_which_still_frame_the_poses_are(seed: int, x: float, yaw: float) -> None:
     moved = SE3.from_rpy((x, -x, 1.0), 0.1, 0.0, yaw)
@@ -119,7 +126,7 @@ def test_it_does_not_matter_in_which_still_frame_the_poses_are(seed: int, x: flo
     assert there.points == pytest.approx(here.points, abs=1e-8)  # m
 
 
-@settings(max_examples=30)
+@settings(max_examples=30, deadline=None)
 @given(seed=st.integers(0, 1000))
 def test_each_point_is_moved_by_the_poses_of_its_time_and_of_the_stamp(seed: int) -> None:
     cloud, track = small_cloud(seed), stamped(bumpy, 20)

@@ -7,7 +7,7 @@ import math
 import pytest
 
 from navcore.errors import NotFiniteError
-from navcore.localization.motion_history import MotionHistory
+from navcore.localization.motion_history import MotionHistory, MotionHistoryParams
 from navcore.messages import ImuSample
 
 MS = 1_000_000
@@ -62,9 +62,9 @@ def test_without_a_gyro_the_wheels_turn_the_robot_by_less_than_they_tell() -> No
 
 
 def test_a_gyro_that_fell_silent_is_replaced_by_the_wheels() -> None:
-    history = MotionHistory()
-    driven(history, 200, v=0.0, wz=-1.0, wheel_omega=1.6)
-    for ms in range(220, 701, 20):
+    history = MotionHistory(MotionHistoryParams(silent_s=0.05))
+    driven(history, 520, v=0.0, wz=-1.0, wheel_omega=1.6)
+    for ms in range(540, 701, 20):
         history.add_wheels(ms * MS, 0.0, 1.6)
     track = history.track(500 * MS, 600 * MS)
     assert track is not None
