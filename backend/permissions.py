@@ -34,6 +34,8 @@ PERMISSIONS: dict[str, Permission] = {
     "GET /api/sites/{site_id}/trunks": LOGIN,
     "DELETE /api/sites/{site_id}/trunks": LOGIN,
     "GET /api/sites/{site_id}/trunks/geojson": LOGIN,
+    "PUT /api/sites/{site_id}/trunks/geojson": LOGIN,
+    "DELETE /api/sites/{site_id}/trunks/{trunk_id}": LOGIN,
     "GET /api/sites/{site_id}/trunks/csv": LOGIN,
     "POST /api/runs/{run_id}/trunks": LOGIN,
     "POST /api/orthophotos": LOGIN,

@@ -64,8 +64,8 @@ def main() -> None:
     with Subscriber(endpoints, SHOWN) as subscriber:
         while not ended:
             show_newest(subscriber, view)
-            if (site := farm.news()) is not None:
-                view.show_site(site)
+            if (shown := farm.news()) is not None:
+                view.show_farm(shown.site, shown.trunks)
     supervisor.close()
     server.stop()
 

@@ -3,27 +3,38 @@
 from __future__ import annotations
 
 import time
+from dataclasses import dataclass
 from pathlib import Path
 
+from backend.shown_trunks import shown_file
 from backend.supervisor import SupervisorClient
 from navcore.errors import InputError
 from navcore.maps.site_map import SiteMap
+from navcore.maps.trunk_map import TrunkMap
 from navcore.transport.codec import decode
 
 ASK_S = 2.0
 
 
+@dataclass(frozen=True, slots=True)
+class ShownFarm:
+    """What stands still in the view."""
+
+    site: SiteMap
+    trunks: TrunkMap
+
+
 class FarmWatch:
-    """Asks the supervisor now and then; the maps are the files that the robot got (`SupervisorClient.place`)."""
+    """Asks the supervisor now and then; the maps are the files that the station laid down."""
 
     def __init__(self, supervisor: SupervisorClient, site_dir: Path) -> None:
         self._supervisor = supervisor
         self._site_dir = site_dir
         self._asked_s = float("-inf")
-        self._shown: tuple[str, int] | None = None
+        self._shown: tuple[str, int, int] | None = None
 
-    def news(self) -> SiteMap | None:
-        """The farm, once when it is new or was loaded again; else None."""
+    def news(self) -> ShownFarm | None:
+        """The farm, once when it or its trunks are new or were loaded again; else None."""
         if time.monotonic() - self._asked_s < ASK_S:
             return None
         self._asked_s = time.monotonic()
@@ -32,12 +43,15 @@ class FarmWatch:
             return None
         return self._read(status.site_id)
 
-    def _read(self, site_id: str) -> SiteMap | None:
-        path = self._site_dir / f"{site_id}.json"
+    def _read(self, site_id: str) -> ShownFarm | None:
+        path, trunks = self._site_dir / f"{site_id}.json", shown_file(self._site_dir, site_id)
         try:
-            found = (site_id, path.stat().st_mtime_ns)
-            site = decode(SiteMap, path.read_bytes()) if found != self._shown else None
+            found = (site_id, path.stat().st_mtime_ns, trunks.stat().st_mtime_ns if trunks.exists() else 0)
+            if found == self._shown:
+                return None
+            site = decode(SiteMap, path.read_bytes())
+            known = decode(TrunkMap, trunks.read_bytes()) if trunks.exists() else TrunkMap()
         except (OSError, InputError):  # without a farm the robot is still worth seeing
             return None
         self._shown = found
-        return site
+        return ShownFarm(site, known)

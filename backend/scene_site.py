@@ -21,12 +21,12 @@ ZONES = {ZoneKind.KEEP_OUT: (210, 50, 50)}
 OTHER_ZONE = (200, 160, 40)
 
 
-def show_site(scene: SceneApi, site: SiteMap) -> None:
-    """Draw `site` in the place of the one shown before."""
+def show_site(scene: SceneApi, site: SiteMap, planted: tuple[Row, ...]) -> None:
+    """Draw `site` in the place of the one shown before, with plants where `planted` rows' spacing puts them."""
     scene.remove_by_name("/site")
     scene.add_frame("/site", show_axes=False)
-    _lines(scene, "/site/posts", posts(site.rows), POST, 0.10)
-    _lines(scene, "/site/trunks", trunks(site.rows), TRUNK, 0.07)
+    _lines(scene, "/site/posts", posts(planted), POST, 0.10)
+    _lines(scene, "/site/trunks", trunks(planted), TRUNK, 0.07)
     _lines(scene, "/site/wires", wires(site.rows), WIRE, 0.03)
     _lines(scene, "/site/roads", roads(site.lanes), ROAD, 0.10)
     for zone in site.zones:

@@ -11,9 +11,11 @@ from numpy.typing import NDArray
 from viser import ViserServer
 
 from backend.scene_site import show_site
+from backend.scene_trunks import show_trunks, unmapped
 from navcore.geometry.geodesy import EnuFrame
 from navcore.geometry.se2 import SE2
 from navcore.maps.site_map import SiteMap
+from navcore.maps.trunk_map import TrunkMap
 from navcore.messages import CameraName, GnssFix, MissionPlan, NavStatus, PoseEstimate, RowObservation, SimTruth
 from navcore.vehicle import VehicleParams
 
@@ -59,10 +61,11 @@ class SceneView:
         if show is not None:
             show(message)
 
-    def show_site(self, site: SiteMap) -> None:
-        """Draw the farm."""
+    def show_farm(self, site: SiteMap, trunks: TrunkMap) -> None:
+        """Draw the farm, and the trunks that are mapped where there are any."""
         self._frame = EnuFrame(site.datum)
-        show_site(self._scene, site)
+        show_site(self._scene, site, planted=unmapped(site.rows, trunks))
+        show_trunks(self._scene, trunks)
 
     def _show_status(self, status: NavStatus) -> None:
         if status.run_id != self._run_id:

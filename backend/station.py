@@ -91,7 +91,7 @@ def open_station(settings: Settings) -> Station:
     recorder, supervisor = RecorderClient(endpoints), SupervisorClient(endpoints, settings.data_dir / "robot")
     robot = RobotView(settings, hub, supervisor)
     stopper = Stopper(endpoints, told_to_stop)
-    exports, trunk_maps = ExportStore(), TrunkMapStore(database)
+    exports, trunk_maps = ExportStore(), TrunkMapStore(database, settings.data_dir / "robot")
     mapper = RunMapper(runs, exports, trunk_maps)
     watcher = RunWatcher(endpoints, runs, hub.put, RunEnd(recorder, mapper.map_ended).finish)
     heartbeat = HeartbeatTeller(told_alive, lambda: hub.operators(settings.operator_timeout_s))

@@ -22,6 +22,7 @@ from navcore.messages import (
     LinkLossPolicy,
     ModeSwitch,
     NavInputs,
+    Odometry,
     Reply,
     Request,
     RequestKind,
@@ -34,6 +35,8 @@ from navcore.mission.event_facts import EventParams
 from navcore.mission.events import Event, active_events, effects_of
 from navcore.mission.evidence import NS, GnssEvidence, GnssEvidenceParams
 from navcore.mission.guard_orders import GuardOrders
+from navcore.mission.map_evidence import MapEvidence, MapEvidenceParams
+from navcore.mission.motion_told import odometry
 from navcore.mission.pilot import Pilot
 from navcore.mission.pilot_params import PilotParams
 from navcore.mission.position import Position
@@ -61,6 +64,7 @@ class NavigatorParams:
     filter: PoseFilterParams = field(default_factory=PoseFilterParams)
     attitude: AttitudeParams = field(default_factory=AttitudeParams)
     check: IndependentCheckParams = field(default_factory=IndependentCheckParams)
+    on_map: MapEvidenceParams = field(default_factory=MapEvidenceParams)
 
 
 class Navigator:
@@ -72,7 +76,8 @@ class Navigator:
         frame = EnuFrame(datum)
         check = IndependentCheck(frame, params.check)
         pose_filter = PoseFilter(frame, params.filter)
-        self.senses = Senses(pose_filter, GnssEvidence(params.gnss), Attitude(params.attitude), check)
+        on_map = MapEvidence(frame, params.on_map)
+        self.senses = Senses(pose_filter, GnssEvidence(params.gnss), Attitude(params.attitude), check, on_map)
         self.driver = Driver(params.driver, vehicle)
         self.progress = ProgressCheck(params.progress)
         self.pilot: Pilot | None = None
@@ -97,6 +102,10 @@ class Navigator:
         self.driving = self._steer(now_ns)
         self._last_ns = now_ns
         return self._decide(now_ns, at, switch, replies, request)
+
+    def odometry(self, now_ns: int) -> Odometry:
+        """How the robot moves, for whoever matches clouds on a map."""
+        return odometry(self.senses, now_ns)
 
     def _position(self, now_ns: int) -> Position:
         s = self.senses
@@ -153,7 +162,7 @@ class Navigator:
     def _new_pilot(self, at: Position, request: Request) -> Pilot | None:
         if at.T_map_base is None or request.plan is None:
             return None
-        return Pilot(request.plan, at, at.T_map_base, self.params.pilot)
+        return Pilot(request.plan, at, at.T_map_base, self.params.pilot, self.senses.on_map)
 
     def _no_entry(self, at: Position, start: tuple[float, float] | None) -> tuple[str, ...]:
         distance = None

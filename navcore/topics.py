@@ -116,6 +116,16 @@ CAMERA_VIEW = Topic(
     name="camera/view", type=m.CameraView, publisher="row_worker", rate_hz=10, max_age_s=0.5, logged=True, shown=True,
     attachment="jpeg",
 )  # fmt: skip
+NAV_ODOMETRY = Topic(
+    name="nav/odometry", type=m.Odometry, publisher="navigator", rate_hz=50, max_age_s=0.2, logged=False, shown=False
+)
+LIDAR_CLOUD = Topic(
+    name="lidar3d/cloud", type=m.LidarCloud, publisher="scan_worker", rate_hz=10, max_age_s=0.5, logged=True,
+    shown=False,
+)  # fmt: skip
+MAP_MATCH = Topic(
+    name="lidar3d/match", type=m.MapMatch, publisher="scan_worker", rate_hz=10, max_age_s=0.5, logged=True, shown=True
+)
 LIDAR_SCAN = Topic(
     name="lidar/scan", type=m.LidarScan, publisher="row_worker", rate_hz=10, max_age_s=0.35, logged=True, shown=False
 )
@@ -145,6 +155,6 @@ TOPICS: dict[str, Topic] = {
     for t in (
         NAV_INPUTS, NAV_DECISION, NAV_STATUS, NAV_SWITCH, NAV_PLAN, CAMERA_REQUEST, GNSS_FIX, CHASSIS_STATE,
         IMU_SAMPLE, ROW_OBSERVATION, CAMERA_VIEW, SIM_TRUTH, SIM_FARM, SIM_CONTACT, SIM_SCAN, LIDAR_SCAN,
-        RECORDER_STATUS, NAV_PRELUDE,
+        NAV_ODOMETRY, LIDAR_CLOUD, MAP_MATCH, RECORDER_STATUS, NAV_PRELUDE,
     )
 }  # fmt: skip

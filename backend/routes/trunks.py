@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Annotated, Any
 
-from fastapi import APIRouter, Response
+from fastapi import APIRouter, Body, Path, Response
 
 from backend.deps import ERRORS, PathId, TheStation
 from backend.schemas import TrunkAddress, TrunkDocument, TrunkMapDocument, TrunksMapped
+from backend.site_files import check_text
 from navcore.maps.site_map import SiteMap
 from navcore.maps.trunk_export import trunks_to_csv, trunks_to_geojson
+from navcore.maps.trunk_import import import_trunks
 from navcore.maps.trunk_map import TrunkMap, trunks_of_row
 
 router = APIRouter(prefix="/api", tags=["trunks"], responses=ERRORS)
+TrunkId = Annotated[str, Path(min_length=1, max_length=200)]
+GeoJson = Annotated[dict[str, Any], Body(description="GeoJSON FeatureCollection of points")]
 
 
 @router.get("/sites/{site_id}/trunks")
@@ -33,6 +37,20 @@ def export_geojson(station: TheStation, site_id: PathId, response: Response) -> 
     """The trunk map as GeoJSON."""
     response.headers["Content-Disposition"] = f'attachment; filename="trunks-{site_id}.geojson"'
     return trunks_to_geojson(station.trunk_maps.get(site_id)[0], station.sites.get(site_id).site)
+
+
+@router.put("/sites/{site_id}/trunks/geojson")
+def import_geojson(station: TheStation, site_id: PathId, body: GeoJson) -> TrunkMapDocument:
+    """Put a GeoJSON file in the place of the trunk map; every problem at once, and then nothing is changed."""
+    site = station.sites.get(site_id).site
+    station.trunk_maps.put(site_id, import_trunks(check_text(body), site))
+    return read_trunks(station, site_id)
+
+
+@router.delete("/sites/{site_id}/trunks/{trunk_id}", status_code=204)
+def delete_trunk(station: TheStation, site_id: PathId, trunk_id: TrunkId) -> None:
+    """Take one trunk off the map: a stake, or a tree that was felled."""
+    station.trunk_maps.remove(site_id, trunk_id)
 
 
 @router.get("/sites/{site_id}/trunks/csv", response_class=Response, responses={200: {"content": {"text/csv": {}}}})

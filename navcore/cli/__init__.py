@@ -4,7 +4,20 @@ from __future__ import annotations
 
 import typer
 
-from navcore.cli import dataset, decode_rplidar, evaluate, export, replay, report, run, score, see, train, trunks
+from navcore.cli import (
+    dataset,
+    decode_lidar3d,
+    decode_rplidar,
+    evaluate,
+    export,
+    replay,
+    report,
+    run,
+    score,
+    see,
+    train,
+    trunks,
+)
 from navcore.cli.bench import bench_app
 from navcore.cli.calibrate import calibrate_app
 from navcore.cli.decode import decode_app
@@ -15,6 +28,7 @@ app = typer.Typer(
 app.add_typer(bench_app, name="bench")
 app.add_typer(calibrate_app, name="calibrate")
 decode_rplidar.register(decode_app)
+decode_lidar3d.register(decode_app)
 app.add_typer(decode_app, name="decode")
 dataset.register(app)
 evaluate.register(app)

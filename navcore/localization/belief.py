@@ -39,6 +39,7 @@ class Belief:
         doubt: where those fixes lie relative to the belief, m east and north.
         agree_ns: since when those fixes agree with each other.
         heading_doubt_ns: as doubt_ns, for headings.
+        match_ns: capture time of the newest accepted match on the 3D map, 0 before the first.
     """
 
     stamp_ns: int
@@ -58,6 +59,7 @@ class Belief:
     doubt: tuple[float, float] = (0.0, 0.0)
     agree_ns: int | None = None
     heading_doubt_ns: int | None = None
+    match_ns: int = 0
 
     @property
     def position_std(self) -> float:
@@ -70,7 +72,7 @@ class Belief:
         return Belief(
             self.stamp_ns, self.mean.copy(), self.cov.copy(), self.v_wheel, self.omega_wheel, self.gyro, self.gyro_ns,
             self.moved_ns, self.quality, self.slow, self.fixed_ns, self.fix_ns, self.distance, self.doubt_ns,
-            self.doubt, self.agree_ns, self.heading_doubt_ns,
+            self.doubt, self.agree_ns, self.heading_doubt_ns, self.match_ns,
         )  # fmt: skip
 
     def forget(self, states: list[int], stds: list[float]) -> None:

@@ -14,7 +14,7 @@ class Innovation:
     """What a measurement says beyond what the belief foretold.
 
     Args:
-        H: Jacobian of the measurement, shape (k, 7), k is 1 or 2.
+        H: Jacobian of the measurement, shape (k, 7), k is 1 to 3.
         residual: measured minus foretold, shape (k,).
         R: covariance of the measurement's noise, shape (k, k).
     """
@@ -41,7 +41,9 @@ class Innovation:
 
 
 def inverse(S: Floats) -> Floats:
-    """Inverse of a positive definite matrix, (1, 1) or (2, 2); ten times faster than LAPACK at this size."""
+    """Inverse of a positive definite matrix; for (1, 1) and (2, 2) ten times faster than LAPACK."""
+    if len(S) > 2:
+        return np.asarray(np.linalg.inv(S))
     if len(S) == 1:
         reciprocal: Floats = np.divide(1.0, S)
         return reciprocal

@@ -59,7 +59,7 @@ class FilterStart:
         slow = self._noise.slow(fix)
         east_variance, north_variance = self._noise.white_variances(fix)
         lever = np.array((s * ax + c * ay, s * ay - c * ax))
-        cov[[X, Y], [X, Y]] = east_variance + slow, north_variance + slow**2
+        cov[[X, Y], [X, Y]] = east_variance + slow**2, north_variance + slow**2
         cov[:2, :2] += yaw_variance * np.outer(lever, lever)
         cov[:2, YAW] = cov[YAW, :2] = yaw_variance * lever
         cov[YAW, YAW] = yaw_variance

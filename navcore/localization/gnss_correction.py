@@ -27,6 +27,7 @@ class GnssCorrectionParams:
         heading_gate: the same with 1; 15.1 passes 99.99 %.
         heading_settle_s: after an RTK fix is won, headings count as without one for so long.
         recover_s: rejected fixes that agree with each other for so long are believed: the pose is set anew.
+        backed_s: so long after a match on the 3D map they are not, s.
         agree: m, fixes within this of each other, relative to the driven path, agree.
         course_speed: m/s, slower than this a course over ground says nothing.
         course_rate: rad/s, turning faster than this it says nothing either.
@@ -38,6 +39,7 @@ class GnssCorrectionParams:
     heading_gate: float = 15.1
     heading_settle_s: float = 8.0
     recover_s: float = 3.0
+    backed_s: float = 1.0
     agree: float = 0.3
     course_speed: float = 0.5
     course_rate: float = 0.2
@@ -110,10 +112,14 @@ class GnssCorrection:
         off = math.hypot(*residual)
         if b.agree_ns is None or math.dist(residual, b.doubt) > self._p.agree + 3.0 * math.sqrt(R.max()):
             b.agree_ns, b.doubt = fix.stamp_ns, (float(residual[0]), float(residual[1]))
-        if (fix.stamp_ns - b.agree_ns) * NS < self._p.recover_s:
+        if (fix.stamp_ns - b.agree_ns) * NS < self._p.recover_s or self._is_backed(b, fix):
             return Verdict(Evidence.POSITION, False, f"fix lies {off:.2f} m from where the robot should be")
         self._relocate(b, fix, residual, R)
         return Verdict(Evidence.POSITION, True, f"pose moved {off:.2f} m to the receiver's place, which it held to")
+
+    def _is_backed(self, b: Belief, fix: GnssFix) -> bool:
+        """The 3D map holds the pose: fixes that agree with each other may all be wrong."""
+        return b.match_ns > 0 and (fix.stamp_ns - b.match_ns) * NS <= self._p.backed_s
 
     def _relocate(self, b: Belief, fix: GnssFix, residual: Floats, R: Floats) -> None:
         """Fixes that agreed with each other for long enough are right, and the belief was wrong."""

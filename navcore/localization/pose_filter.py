@@ -17,10 +17,11 @@ from navcore.localization.filter_start import FilterStart, FilterStartParams
 from navcore.localization.filter_status import FilterStatus
 from navcore.localization.gnss_correction import GnssCorrection, GnssCorrectionParams
 from navcore.localization.gnss_noise import GnssNoise, GnssNoiseParams
+from navcore.localization.map_correction import MapCorrection, MapCorrectionParams
 from navcore.localization.motion_model import MotionModel, MotionParams
 from navcore.localization.standstill import learn_bias
 from navcore.localization.verdict import Evidence, Verdict
-from navcore.messages import FixQuality, GnssFix, ImuSample, PoseEstimate
+from navcore.messages import FixQuality, GnssFix, ImuSample, MapMatch, PoseEstimate
 
 NS = 1e-9
 
@@ -37,6 +38,7 @@ class PoseFilterParams:
     motion: MotionParams = field(default_factory=MotionParams)
     noise: GnssNoiseParams = field(default_factory=GnssNoiseParams)
     gnss: GnssCorrectionParams = field(default_factory=GnssCorrectionParams)
+    map: MapCorrectionParams = field(default_factory=MapCorrectionParams)
     start: FilterStartParams = field(default_factory=FilterStartParams)
     odometry: DeadReckoningParams = field(default_factory=DeadReckoningParams)
     history_s: float = 2.0
@@ -59,6 +61,7 @@ class PoseFilter:
         self._noise = noise
         self._motion = MotionModel(p.motion, noise)
         self._gnss = GnssCorrection(p.gnss, noise)
+        self._map = MapCorrection(p.map)
         self._start = FilterStart(p.start, p.gnss, noise)
         self._odometry = DeadReckoning(p.odometry)
         self._history = BeliefHistory(round(p.history_s / NS), self._motion.propagate)
@@ -122,6 +125,17 @@ class PoseFilter:
         self._odometry.learn_scale(float(b.mean[SPEED_SCALE]))
         if fix.quality is FixQuality.RTK_FIXED:  # headings under leaves are wrong for long, and the bias with them
             self._odometry.learn_bias(float(b.mean[GYRO_BIAS]))
+
+    def add_match(self, match: MapMatch) -> None:
+        """Where a 3D LiDAR's cloud lies on the map; it does not start the filter, but holds it where GNSS is bad."""
+        numbers = (match.x, match.y, match.yaw, *match.covariance)
+        if not self._is_sound(Evidence.MAP, match.stamp_ns, numbers) or self._history.newest is None:
+            return
+
+        def apply(b: Belief) -> list[Verdict]:
+            return [self._map.apply(b, match)]
+
+        self._count(self._history.add(Event(match.stamp_ns, apply)), match.stamp_ns)
 
     def restart(self, reason: str) -> None:
         """Forget the pose and wait for a new position and heading, at an operator's word."""
@@ -236,8 +250,9 @@ class PoseFilter:
         return (now_ns - max(stamps)) * NS if stamps else None
 
     def _source(self, b: Belief) -> str:
-        fresh = (b.stamp_ns - b.fix_ns) * NS < 1.0
-        position = b.quality.name.lower() if fresh else "dead_reckoning"
+        position = b.quality.name.lower() if (b.stamp_ns - b.fix_ns) * NS < 1.0 else "dead_reckoning"
+        if b.match_ns > 0 and (b.stamp_ns - b.match_ns) * NS < 1.0:
+            position = "map"
         return f"{position}+gyro" if self._motion.uses_gyro(b) else f"{position}+wheels"
 
 

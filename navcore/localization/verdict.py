@@ -12,6 +12,7 @@ class Evidence(StrEnum):
     POSITION = "position"
     HEADING = "heading"
     COURSE = "course"
+    MAP = "map"
     INPUT = "input"
 
 

@@ -20,6 +20,7 @@ from navcore.messages.camera import (
 )
 from navcore.messages.camera_mount import CameraMount, MountAgreement
 from navcore.messages.cloud import LidarCloud
+from navcore.messages.map_match import MapMatch, MatchState, Odometry
 from navcore.messages.mission_plan import USUAL_WIDTH, MissionPlan, PathSegment, PlannedTrunk, Point, SegmentKind
 from navcore.messages.recorder import RecorderStatus
 from navcore.messages.request import LinkLossPolicy, Reply, Request, RequestKind
@@ -47,6 +48,8 @@ __all__ = [
     "LidarCloud",
     "LidarScan",
     "LinkLossPolicy",
+    "MapMatch",
+    "MatchState",
     "MissionPlan",
     "ModeSwitch",
     "MountAgreement",
@@ -56,6 +59,7 @@ __all__ = [
     "NavStatus",
     "NextTrunk",
     "ObjectKind",
+    "Odometry",
     "PathSegment",
     "PlannedTrunk",
     "Point",

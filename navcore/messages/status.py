@@ -32,6 +32,7 @@ class NavMode(StrEnum):
     ROW = "row"
     ROW_END = "row_end"
     HEADLAND = "headland"
+    MAP = "map"
 
 
 class RunState(StrEnum):

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from navcore.chassis.protocol import ChassisState, GuardRequest, MotionCommand
 from navcore.messages.camera import CameraRequest, RowObservation
+from navcore.messages.map_match import MapMatch
 from navcore.messages.request import Reply, Request
 from navcore.messages.sensing import GnssFix, ImuSample
 from navcore.messages.status import ModeSwitch, NavStatus
@@ -21,6 +22,7 @@ class NavInputs:
     gnss: tuple[GnssFix, ...] = ()
     rows: tuple[RowObservation, ...] = ()
     requests: tuple[Request, ...] = ()
+    matches: tuple[MapMatch, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from navcore.geometry.se2 import SE2
-from navcore.messages import NavMode, PoseEstimate
-from navcore.mission.mode_selector import ON_CAMERA
+from navcore.messages import PoseEstimate
+from navcore.mission.mode_selector import ON_CAMERA, ON_POSE
 from navcore.mission.pilot import Pilot
 from navcore.mission.situation import Situation
 from navcore.mission.state_machine import UNDER_WAY
@@ -36,7 +36,7 @@ def driven_pose(now: Situation) -> PoseEstimate | None:
         return by_gnss
     T_odom_base = now.senses.T_odom_base
     told = pilot.anchor.followed @ T_odom_base
-    if pilot.mode is NavMode.GNSS_PATH:
+    if pilot.mode in ON_POSE:
         wanted = SE2(by_gnss.x, by_gnss.y, by_gnss.yaw)
         return _estimate(told, wanted, np.reshape(by_gnss.covariance, (3, 3)), by_gnss, by_gnss.source)
     source = "row+gyro" if pilot.mode in ON_CAMERA else "carried+gyro"
@@ -45,7 +45,7 @@ def driven_pose(now: Situation) -> PoseEstimate | None:
 
 def _holds(now: Situation, pilot: Pilot) -> bool:
     """Whether the tie is still the robot's: nobody has driven it away by hand."""
-    if pilot.mode is NavMode.GNSS_PATH:
+    if pilot.mode in ON_POSE:
         return now.state in UNDER_WAY
     at = pilot.anchor.followed @ now.senses.T_odom_base
     return math.hypot(at.x - pilot.pose.x, at.y - pilot.pose.y) <= BY_HAND

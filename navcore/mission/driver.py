@@ -12,7 +12,7 @@ from navcore.control.steering import Motion, Steering
 from navcore.control.stop_zones import StopZoneParams, StopZones
 from navcore.control.target_line import TargetLine, target_from_path
 from navcore.geometry.se2 import SE2
-from navcore.messages import MissionPlan, NavMode, Point, PoseEstimate
+from navcore.messages import MissionPlan, NavMode, Point, PoseEstimate, SegmentKind
 from navcore.mission.mode_selector import CARRIED, ON_CAMERA
 from navcore.mission.pilot import Pilot
 from navcore.mission.senses import Senses
@@ -31,14 +31,15 @@ class DriverParams:
     Attributes:
         slow: speed while an event says SLOW, m/s.
         entry: speed before the row's entrance and at its end, m/s.
-        gnss_age_s, row_age_s, chassis_age_s: how long each input may be driven on, s; the shortest of those that were
-            used bounds the command's deadline.
+        gnss_age_s, row_age_s, map_age_s, chassis_age_s: how long each input may be driven on, s; the shortest of
+            those that were used bounds the command's deadline.
     """
 
     slow: float = 0.3
     entry: float = 0.5
     gnss_age_s: float = 3.0
     row_age_s: float = 0.5
+    map_age_s: float = 0.8
     chassis_age_s: float = 0.2
     look_ahead: LookAheadParams = field(default_factory=LookAheadParams)
     tracker: LineTrackerParams = field(default_factory=LineTrackerParams)
@@ -145,6 +146,9 @@ class Driver:
         if pilot.mode is NavMode.GNSS_PATH:
             fix = senses.gnss.newest
             limits.append(fix.stamp_ns + int(p.gnss_age_s * S) if fix else 0)
+        if pilot.mode is NavMode.MAP:
+            match = senses.on_map.newest
+            limits.append(match.stamp_ns + int(p.map_age_s * S) if match else 0)
         if pilot.mode in ON_CAMERA:
             seen = pilot.row.agreeing
             limits.append(seen.stamp_ns + int(p.row_age_s * S) if seen else 0)
@@ -167,7 +171,8 @@ class Driver:
 
     def _steer(self, target: TargetLine, pilot: Pilot, motion: Motion, speed: float, now_ns: int) -> Steering:
         """In the driving frame; a leg driven backwards only turns the sign of v."""
-        in_row = pilot.mode in ON_CAMERA or pilot.before_seen_row
+        by_map = pilot.mode is NavMode.MAP and pilot.segment.kind is SegmentKind.ROW
+        in_row = pilot.mode in ON_CAMERA or pilot.before_seen_row or by_map
         look_ahead = (
             row_look_ahead(speed, self.params.look_ahead) if in_row else gnss_look_ahead(self.params.look_ahead)
         )

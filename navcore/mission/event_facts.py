@@ -28,6 +28,7 @@ class EventParams:
         askew_deg: a camera that leans further against the IMU, and by twice what is doubtful, has been moved; so has
             one that looks further up or down by `pitched_deg`, or stands higher or lower by `raised` m:
             slipping wheels and feet hidden in grass look like a decimetre.
+        map_hold_s, map_std: age of the newest match and position 1-sigma while the 3D map is driven on.
         battery_low_v: warn and slow (hazard 52). battery_stop_v: stop.
     """
 
@@ -52,6 +53,8 @@ class EventParams:
     askew_deg: float = 3.0
     pitched_deg: float = 2.5
     raised: float = 0.2
+    map_hold_s: float = 0.6
+    map_std: float = 0.25
     battery_low_v: float = 23.5
     battery_stop_v: float = 22.0
 
@@ -64,7 +67,8 @@ class EventFacts:
     `entrance`: metres to that of a row which is driven at without being seen; `room`: metres between body and plants
     on the narrower side of a seen one that is near; `askew`: how far the camera leans to the right against the IMU,
     and its 1-sigma, rad; `mount`: how else it is mounted; `agreement`: whether it agrees with the 2D LiDAR; `halt`:
-    what the operator is told where the plan lets the robot wait.
+    what the operator is told where the plan lets the robot wait; `map_reason`: why the 3D map does not tell the
+    place, empty while it does, and `map_disputed`: it would, but other witnesses contradict it.
     """
 
     state: RunState
@@ -97,3 +101,6 @@ class EventFacts:
     mount: CameraMount | None = None
     agreement: MountAgreement | None = None
     halt: str = ""
+    map_age_s: float | None = None
+    map_reason: str = ""
+    map_disputed: bool = False

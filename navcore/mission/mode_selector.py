@@ -9,68 +9,14 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from navcore.messages import NavMode, SegmentKind
+from navcore.mission.mode_facts import ModeFacts, ModeSelectorParams
 
-# Driven on what the camera sees; along a row; by odometry, where nothing ahead says where the path lies.
+# Driven on what the camera sees; on the pose filter's pose; along a row; by odometry, where nothing ahead says where
+# the path lies.
 ON_CAMERA = frozenset({NavMode.ROW_ENTRY, NavMode.ROW})
+ON_POSE = frozenset({NavMode.GNSS_PATH, NavMode.MAP})
 ALONG_ROW = frozenset({NavMode.ROW, NavMode.ROW_END})
 CARRIED = frozenset({NavMode.ROW_END, NavMode.HEADLAND})
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ModeSelectorParams:
-    """Parameters of `select_mode`.
-
-    Attributes:
-        streak: agreeing row observations in a row before the camera is trusted, >= 1.
-        lost_s: without one for this long before the entrance, the camera is not trusted any more, s.
-        end_zone: distance to the row's end at which the robot drives on by odometry, m.
-        seen_end_zone: the same where the camera has seen that end, m.
-        again: a row seen to go on for more than this takes the robot back into it, m (hysteresis to `end_zone`).
-        clear: distance past the row's end at which the row is left and GNSS may take over, m.
-        gnss_std: position 1-sigma at which GNSS may take over, m.
-        gnss_streak: good epochs in a row before it does.
-    """
-
-    streak: int = 5
-    lost_s: float = 1.0
-    end_zone: float = 2.5
-    seen_end_zone: float = 4.0
-    again: float = 5.0
-    clear: float = 1.0
-    gnss_std: float = 0.12
-    gnss_streak: int = 5
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ModeFacts:
-    """What the selector looks at.
-
-    Attributes:
-        segment: kind of the planned segment here.
-        to_start, to_end: metres ahead at which the row here begins and ends; None away from rows.
-        row_streak: consecutive observations that are valid and agree with the expected row.
-        row_age_s: age of the last such observation, None if there was none.
-        row_follows: the headland leads to another row: its place is known best from the row that is left.
-        turn_follows: the straight way out of the row goes over into a turn on the headland.
-        looks: the camera shows pictures, whether there is a row in them or not.
-        seen_end: distance ahead at which the camera sees the row end, None where it sees none.
-        seen_to: distance ahead up to which it sees the row go on, None where it cannot say so.
-        gnss_std: 1-sigma of the pose filter's position, m, None without a pose.
-        gnss_streak: consecutive good epochs.
-    """
-
-    segment: SegmentKind
-    to_start: float | None
-    to_end: float | None
-    row_follows: bool
-    turn_follows: bool
-    row_streak: int
-    row_age_s: float | None
-    looks: bool
-    seen_end: float | None
-    seen_to: float | None
-    gnss_std: float | None
-    gnss_streak: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -124,6 +70,17 @@ def _gnss_good(f: ModeFacts, p: ModeSelectorParams) -> bool:
     return f.gnss_std is not None and f.gnss_std <= p.gnss_std and f.gnss_streak >= p.gnss_streak
 
 
+def _map_good(f: ModeFacts, p: ModeSelectorParams) -> bool:
+    fresh = f.map_streak >= p.map_streak and f.map_age_s is not None and f.map_age_s <= p.map_age_s
+    return fresh and f.gnss_std is not None and f.gnss_std <= p.map_std
+
+
+def _row_gone(f: ModeFacts, p: ModeSelectorParams) -> bool:
+    """Not seen any more while there is still row ahead, and the map knows the way through or up to it."""
+    gone = f.row_age_s is None or f.row_age_s > p.row_gone_s
+    return gone and _map_good(f, p) and (f.map_leads or not _inside(f))
+
+
 def _left(f: ModeFacts, p: ModeSelectorParams) -> bool:
     """Past the row's end, and no picture of now shows more of the row ahead."""
     passed = f.to_end is None or f.to_end <= -p.clear
@@ -152,13 +109,13 @@ def _row_ahead(f: ModeFacts) -> str:
 
 SWITCHES: tuple[Switch, ...] = (
     Switch(
-        frozenset({NavMode.GNSS_PATH, NavMode.HEADLAND}),
+        frozenset({NavMode.GNSS_PATH, NavMode.HEADLAND, NavMode.MAP}),
         NavMode.ROW,
         lambda f, p: _inside(f) and _row_trusted(f, p),
         lambda f: f"row seen in {f.row_streak} pictures, {_metres(f.to_end)} to its end",
     ),
     Switch(
-        frozenset({NavMode.GNSS_PATH}),
+        frozenset({NavMode.GNSS_PATH, NavMode.MAP}),
         NavMode.ROW_ENTRY,
         lambda f, p: _near_row(f) and _row_trusted(f, p),
         _row_ahead,
@@ -192,6 +149,30 @@ SWITCHES: tuple[Switch, ...] = (
         NavMode.GNSS_PATH,
         lambda f, p: _clear(f, p) and _gnss_good(f, p),
         lambda f: f"row left, GNSS position known to {_metres(f.gnss_std)}",
+    ),
+    Switch(
+        frozenset({NavMode.MAP}),
+        NavMode.GNSS_PATH,
+        lambda f, p: not _inside(f) and _gnss_good(f, p),
+        lambda f: f"GNSS position known to {_metres(f.gnss_std)} again",
+    ),
+    Switch(
+        frozenset({NavMode.GNSS_PATH}),
+        NavMode.MAP,
+        lambda f, p: f.gnss_streak == 0 and not _inside(f) and _map_good(f, p),
+        lambda f: f"GNSS without a fix, place on the 3D map known to {_metres(f.gnss_std)}",
+    ),
+    Switch(
+        frozenset({NavMode.ROW, NavMode.ROW_ENTRY}),
+        NavMode.MAP,
+        _row_gone,
+        lambda f: f"row not seen any more, place on the 3D map known to {_metres(f.gnss_std)}",
+    ),
+    Switch(
+        frozenset({NavMode.ROW_END, NavMode.HEADLAND}),
+        NavMode.MAP,
+        lambda f, p: _clear(f, p) and _map_good(f, p),
+        lambda f: f"row left, place on the 3D map known to {_metres(f.gnss_std)}",
     ),
     Switch(
         frozenset({NavMode.ROW_END}),

@@ -24,7 +24,10 @@ from navcore.mission.along_row import AlongRow
 from navcore.mission.along_trunks import AlongTrunks
 from navcore.mission.evidence import NO_IDEA, Doubt, RowEvidence
 from navcore.mission.look_back import LeftRow, LookBack
-from navcore.mission.mode_selector import ALONG_ROW, CARRIED, ON_CAMERA, ModeFacts, select_mode, start_reason
+from navcore.mission.map_evidence import MapEvidence
+from navcore.mission.mode_facts import ModeFacts
+from navcore.mission.mode_selector import ALONG_ROW, CARRIED, ON_CAMERA, ON_POSE, select_mode, start_reason
+from navcore.mission.pilot_facts import mode_facts
 from navcore.mission.pilot_params import PilotParams
 from navcore.mission.position import Position
 from navcore.mission.route import Leg, Place, Route, row_length
@@ -33,8 +36,11 @@ from navcore.mission.route import Leg, Place, Route, row_length
 class Pilot:
     """Follows one plan from its first leg to its last."""
 
-    def __init__(self, plan: MissionPlan, start: Position, T_map_base: SE2, params: PilotParams) -> None:
+    def __init__(
+        self, plan: MissionPlan, start: Position, T_map_base: SE2, params: PilotParams, on_map: MapEvidence
+    ) -> None:
         self.params = params
+        self.on_map = on_map
         self.route = Route(plan)
         self.anchor = PathAnchor(T_map_base @ start.T_odom_base.inverse(), params.anchor)
         self.row = RowEvidence(params.row)
@@ -92,7 +98,7 @@ class Pilot:
         driven = self._carry(at)
         for seen, T_odom_base in row_seen:
             self._see(seen, self.driving_pose(T_odom_base))
-        on_road, heading = self.mode is NavMode.GNSS_PATH, self.leg.line.heading_at(self.place.s)
+        on_road, heading = self.mode in ON_POSE, self.leg.line.heading_at(self.place.s)
         if on_road and at.T_map_base is not None:
             self.anchor.follow_pose(at.T_map_base, at.T_odom_base, at.yaw_std)
         self.pose = self.anchor.slide(
@@ -124,7 +130,7 @@ class Pilot:
         slope = -math.sin(at.roll) if self.leg.reverse else math.sin(at.roll)
         self.anchor.drive(distance, (at.now_ns - self._at.now_ns) * 1e-9, at.T_odom_base, slope)
         self.carried = self.carried + distance if self.mode in CARRIED else 0.0
-        if self.mode is not NavMode.GNSS_PATH:
+        if self.mode not in ON_POSE:
             self._take_drift(self._at, at)
         self._at = at
         return distance
@@ -151,6 +157,7 @@ class Pilot:
         doubt = Doubt(*self.anchor.departed_stds) if self.mode is NavMode.HEADLAND else NO_IDEA
         if not self.row.judge(seen, row, expected, segment.width, doubt):
             return
+        self._compare_map(seen, row, T_odom_drive)
         turned_to = self.mode is NavMode.HEADLAND and self._turned_to_row(row, T_odom_drive)
         if (self.mode in ON_CAMERA or turned_to) and seen.offset is not None and seen.heading is not None:
             noise = look_noise(seen.offset_std or 0.05, seen.heading_std or 0.02, seen.correlation)
@@ -162,6 +169,12 @@ class Pilot:
             at_end = self.mode is NavMode.ROW_END
             self._along.see(seen, row, T_odom_drive, row_length(segment), at_end=at_end)
             self._trunks.see(seen, segment, T_odom_drive)
+
+    def _compare_map(self, seen: RowObservation, row: RowLine, T_odom_drive: SE2) -> None:
+        """What the row says of the place on the 3D map, and the map of the row as drawn."""
+        at, leg = self._at, self.leg.row_way(self.place.s, self.params.look_out)
+        if at.T_map_base is not None and leg is not None:
+            self.on_map.add_row(leg, seen, row, T_odom_drive, at.T_map_base @ at.T_odom_base.inverse())
 
     def _turned_to_row(self, row: RowLine, T_odom_drive: SE2) -> bool:
         """Before the next row and turned to it: seen so, it puts right what the wheels got wrong in the turn."""
@@ -224,7 +237,7 @@ class Pilot:
             self._trunks.forget()
         if self.mode is NavMode.ROW:
             self.look_back.row = LeftRow.of(self.row_segment())
-        if self.mode is NavMode.GNSS_PATH:
+        if self.mode in ON_POSE:
             self.anchor.leave()
             self._comes_from_gnss = True
         if self.mode is NavMode.HEADLAND:
@@ -250,21 +263,8 @@ class Pilot:
         return -row.coordinates(self.pose).x if row else None
 
     def _facts(self, at: Position) -> ModeFacts:
-        to_start, segment, seen = self.to_start(), self.row_segment(), self.row.agreeing
-        return ModeFacts(
-            segment=self.segment.kind,
-            to_start=to_start,
-            to_end=row_length(segment) + to_start if segment is not None and to_start is not None else None,
-            row_follows=self.leg.row_follows(self.place.s),
-            turn_follows=self.leg.turn_follows(self.place.s),
-            row_streak=self.row.streak,
-            row_age_s=self.row.age_s(at.now_ns),
-            looks=self.row.looks(at.now_ns),
-            seen_end=seen.end_distance if seen else None,
-            seen_to=seen.seen_to if seen else None,
-            gnss_std=at.gnss_std,
-            gnss_streak=at.gnss_streak,
-        )
+        to_start, look_out = self.to_start(), self.params.look_out
+        return mode_facts(at, self.leg, self.place.s, self.row, self.on_map, look_out, to_start)
 
     def camera(self) -> CameraName:
         """The one that looks the way the leg is driven."""

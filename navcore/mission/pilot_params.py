@@ -8,7 +8,7 @@ from navcore.localization.path_anchor import PathAnchorParams
 from navcore.mission.along_row import AlongRowParams
 from navcore.mission.along_trunks import AlongTrunksParams
 from navcore.mission.evidence import RowEvidenceParams
-from navcore.mission.mode_selector import ModeSelectorParams
+from navcore.mission.mode_facts import ModeSelectorParams
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

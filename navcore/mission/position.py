@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from navcore.geometry.se2 import SE2
-from navcore.mission.mode_selector import ModeSelectorParams
+from navcore.mission.mode_facts import ModeSelectorParams
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

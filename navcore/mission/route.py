@@ -58,6 +58,11 @@ class Leg:
         """Arc length, m."""
         return self.line.length
 
+    def row_way(self, s: float, look_out: float) -> str | None:
+        """Name of the row that matters at arc length `s` and of the direction in which it is driven."""
+        segment = self.row_segment(s, look_out)
+        return f"{segment.row_id} {'in reverse' if self.reverse else 'ahead'}" if segment is not None else None
+
     def segment_index(self, s: float) -> int:
         """Index within the leg of the segment at arc length `s`."""
         return min(bisect_right(self.segment_ends, s), len(self.segments) - 1)

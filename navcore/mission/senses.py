@@ -12,6 +12,7 @@ from navcore.localization.pose_filter import PoseFilter
 from navcore.messages import CameraName, FixQuality, NavInputs, PoseEstimate, RowObservation
 from navcore.mission.camera_truth import CameraTruth
 from navcore.mission.evidence import NS, GnssEvidence
+from navcore.mission.map_evidence import MapEvidence
 
 STANDING_V = 0.03
 STANDING_OMEGA = 0.05
@@ -21,12 +22,14 @@ class Senses:
     """Feeds the pose filter and keeps the newest of everything else."""
 
     def __init__(
-        self, pose_filter: PoseFilter, gnss: GnssEvidence, attitude: Attitude, check: IndependentCheck
-    ) -> None:
+        self, pose_filter: PoseFilter, gnss: GnssEvidence, attitude: Attitude, check: IndependentCheck,
+        on_map: MapEvidence,
+    ) -> None:  # fmt: skip
         self.filter = pose_filter
         self.check = check
         self.attitude = attitude
         self.gnss = gnss
+        self.on_map = on_map
         self.chassis: ChassisState | None = None
         self.pose: PoseEstimate | None = None
         self.T_odom_base = SE2(0.0, 0.0, 0.0)
@@ -48,8 +51,12 @@ class Senses:
             self.gnss.add(fix)
             self.filter.add_gnss(fix)
             self.check.add_gnss(fix)
+            self.on_map.add_fix(fix, self.filter.odom_at(fix.stamp_ns))
             if fix.quality is FixQuality.RTK_FIXED and fix.height_m is not None and math.isfinite(fix.height_m):
                 self.attitude.see_height(fix.height_m)
+        for match in inputs.matches:
+            if self.on_map.add(match, self.filter.odom_at(match.stamp_ns)):
+                self.filter.add_match(match)
         self.pose = self.filter.estimate(inputs.now_ns)
         if self.pose is not None:
             self.check.add_estimate(self.pose)

@@ -84,6 +84,9 @@ def event_facts(
         mount=s.camera.newest,
         agreement=s.camera.agreement,
         halt=pilot.halt if pilot else "",
+        map_age_s=s.on_map.age_s(now_ns),
+        map_reason=s.on_map.reason,
+        map_disputed=s.on_map.disputed,
     )
 
 

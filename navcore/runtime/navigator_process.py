@@ -21,8 +21,10 @@ from navcore.messages import (
     Decision,
     GnssFix,
     ImuSample,
+    MapMatch,
     NavInputs,
     NavPrelude,
+    Odometry,
     Reply,
     Request,
     RequestKind,
@@ -41,8 +43,10 @@ from navcore.topics import (
     CHASSIS_STATE,
     GNSS_FIX,
     IMU_SAMPLE,
+    MAP_MATCH,
     NAV_DECISION,
     NAV_INPUTS,
+    NAV_ODOMETRY,
     NAV_PLAN,
     NAV_PRELUDE,
     NAV_STATUS,
@@ -67,7 +71,7 @@ class Senses:
 
     def __init__(self, endpoints: Endpoints, gnss_address: str) -> None:
         self.guard = GuardLink(endpoints)
-        self._bus = Subscriber(endpoints, (IMU_SAMPLE.name, ROW_OBSERVATION.name))
+        self._bus = Subscriber(endpoints, (IMU_SAMPLE.name, ROW_OBSERVATION.name, MAP_MATCH.name))
         self._requests = Replier(endpoints.navigator_requests)
         self._fixes: Inbox[GnssFix] = Inbox(FIXES)
         self._gnss = GnssReader(DeviceAddress(gnss_address).open, NmeaStream(), self._fixes.put, time.monotonic_ns)
@@ -81,18 +85,21 @@ class Senses:
         """
         imu: list[ImuSample] = []
         rows: list[RowObservation] = []
+        matches: list[MapMatch] = []
         for _ in range(MOST_MESSAGES):
             received = self._bus.receive(0)
             if received is None:
                 break
             if received.name == IMU_SAMPLE.name:
                 imu.append(decode(ImuSample, received.payload))
+            elif received.name == MAP_MATCH.name:
+                matches.append(decode(MapMatch, received.payload))
             else:
                 rows.append(decode(RowObservation, received.payload))
         chassis, gnss, requests = self.guard.receive(), self._fixes.take(), self._ask()
         return NavInputs(
             now_ns=time.monotonic_ns(), chassis=chassis, imu=tuple(imu), gnss=gnss, rows=tuple(rows),
-            requests=requests,
+            requests=requests, matches=tuple(matches),
         )  # fmt: skip
 
     def answer(self, replies: tuple[Reply, ...]) -> None:
@@ -151,6 +158,10 @@ class Voice:
         if self._status.due(decision.stamp_ns):
             publish(NAV_STATUS.name, decision.status)
 
+    def tell_motion(self, odometry: Odometry) -> None:
+        """For whoever matches clouds."""
+        self._publisher.publish(NAV_ODOMETRY.name, odometry)
+
     def close(self) -> None:
         """Fall silent."""
         self._publisher.close()
@@ -187,6 +198,7 @@ class NavigatorProcess:
         self._senses.guard.send(decision.guard_request, decision.command, now_ns)
         self._senses.answer(decision.replies)
         self._voice.tell(inputs, encoded, taken)
+        self._voice.tell_motion(self._understudy.leading.odometry(now_ns))
         if decision.status.state is RunState.IDLE and self._collect.due(now_ns):
             gc.collect()  # only here, where a pause moves nothing
 

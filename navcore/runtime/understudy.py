@@ -66,6 +66,11 @@ class Understudy:
         self._ready: Rehearsed | None = None
         self._warming: Rehearsed | None = Rehearsed(new_navigator(), now_ns)
 
+    @property
+    def leading(self) -> Navigator:
+        """The one in charge."""
+        return self._leading.navigator
+
     def step(self, now_ns: int, inputs: NavInputs, encoded: bytes) -> Taken:
         """One tick; `encoded` are the inputs as they go into the log."""
         decision = self._leading.step(now_ns, inputs, encoded)

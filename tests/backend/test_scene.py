@@ -12,10 +12,12 @@ import viser
 from fastapi.testclient import TestClient
 from starlette.websockets import WebSocketDisconnect
 
-from backend.scene_site import posts, show_site, trunks
+from backend.scene_site import posts, show_site, sides, trunks
+from backend.scene_trunks import cylinder, sizes, unmapped
 from backend.scene_view import SceneView
 from backend.settings import Settings
 from navcore.maps.site_map import Row, SiteMap
+from navcore.maps.trunk_map import MappedTrunk, TrunkMap
 from navcore.vehicle import PROFILES
 from tests.backend.conftest import ORIGIN
 
@@ -101,17 +103,39 @@ def test_without_a_viewer_the_page_says_so(client: TestClient, viewer: viser.Vis
 
 def test_every_row_of_the_farm_stands_in_the_view(site: SiteMap, viewer: viser.ViserServer) -> None:
     view = SceneView(viewer, PROFILES["paper_a"])
-    view.show_site(site)
+    view.show_farm(site, TrunkMap())
     row = site.rows[0]
     along = np.arange(0.0, 60.0 + 1e-6, row.post_spacing)
     found = posts((row,))
     assert found.shape == (2 * len(along), 2, 3)
     assert sorted(set(found[:, 0, 0].tolist())) == [row.start[0] - row.width / 2, row.start[0] + row.width / 2]  # m
     assert np.allclose(np.unique(found[:, 0, 1]), row.start[1] + along, atol=1e-3)  # m
-    show_site(viewer.scene, SiteMap(name="Empty", datum=site.datum))
+    show_site(viewer.scene, SiteMap(name="Empty", datum=site.datum), planted=())
 
 
 def test_a_row_without_length_and_a_huge_farm_are_shown_too() -> None:
     assert np.isfinite(posts((Row(id="dot", start=(1.0, 1.0), end=(1.0, 1.0)),))).all()
     many = tuple(Row(id=f"r{i}", start=(3.0 * i, 0.0), end=(3.0 * i, 500.0)) for i in range(200))
     assert len(trunks(many)) <= 20_000
+
+
+def test_mapped_trunks_stand_in_the_place_of_those_that_the_spacing_promised(
+    site: SiteMap, viewer: viser.ViserServer
+) -> None:
+    row = site.rows[0]
+    (x, y), _ = sides(row)[0]
+    seen = TrunkMap(trunks=(MappedTrunk(id="a-1", x=x, y=y, std=0.03, diameter=0.12),))
+    assert row.id not in {r.id for r in unmapped(site.rows, seen)}
+    assert unmapped(site.rows, TrunkMap()) == site.rows
+    np.testing.assert_allclose(sizes(seen)[0, :2], 0.06, atol=1e-6)  # m, radius
+    view = SceneView(viewer, PROFILES["paper_a"])
+    view.show_farm(site, seen)
+    view.show_farm(site, TrunkMap())
+
+
+def test_a_trunk_is_closed_and_looks_outwards() -> None:
+    vertices, faces = cylinder()
+    a, b, c = (vertices[faces[:, k]].astype(float) for k in range(3))
+    normals, centres = np.cross(b - a, c - a), (a + b + c) / 3.0
+    outwards = np.einsum("ij,ij->i", normals, centres - (0.0, 0.0, 0.5))
+    assert (outwards > 0.0).all()

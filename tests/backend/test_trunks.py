@@ -9,9 +9,11 @@ from typing import Any
 import pytest
 from fastapi.testclient import TestClient
 
+from backend.shown_trunks import shown_file
 from backend.station import Station
 from navcore.maps.site_map import Row
 from navcore.maps.trunk_map import MappedTrunk, TrunkMap
+from navcore.transport.codec import decode
 from tests.backend.played_robot import PlayedRobot
 from tests.backend.starting import start
 
@@ -94,3 +96,43 @@ def test_a_run_without_a_lidar_says_so(client: TestClient, robot: PlayedRobot, r
     answer = client.post(f"/api/runs/{run_id}/trunks")
     assert answer.status_code == 200, answer.text
     assert answer.json()["message"] == "This run saw no trunks: it drove no row with a 2D LiDAR."
+
+
+def test_a_map_taken_home_and_mended_comes_back(
+    client: TestClient, station: Station, ready: dict[str, Any], row: Row
+) -> None:
+    path = f"/api/sites/{ready['site_id']}/trunks"
+    station.trunk_maps.add(ready["site_id"], "a" * 16, beside(row, "a"))
+    home = client.get(f"{path}/geojson").json()
+    assert client.delete(f"{path}/a-2").status_code == 204
+    assert [t["id"] for t in client.get(path).json()["trunks"]] == ["a-1", "a-3", "a-4", "a-5", "a-6"]
+    assert client.delete(f"{path}/a-2").status_code == 404
+    back = client.put(f"{path}/geojson", json=home)
+    assert (len(back.json()["trunks"]), back.json()["runs"]) == (6, 1)
+    again = station.trunk_maps.add(ready["site_id"], "a" * 16, beside(row, "a"))
+    assert again.message == "This run is in the trunk map already."
+
+
+def test_a_file_with_one_bad_trunk_changes_nothing(
+    client: TestClient, station: Station, ready: dict[str, Any], row: Row
+) -> None:
+    path = f"/api/sites/{ready['site_id']}/trunks"
+    station.trunk_maps.add(ready["site_id"], "a" * 16, beside(row, "a"))
+    file = client.get(f"{path}/geojson").json()
+    file["features"][3]["properties"]["diameter"] = "thick"
+    refused = client.put(f"{path}/geojson", json=file)
+    assert refused.status_code == 422
+    assert "diameter" in " ".join([refused.json()["message"], *refused.json()["reasons"]])
+    assert len(client.get(path).json()["trunks"]) == 6
+
+
+def test_the_3d_view_is_given_each_state_of_the_map(
+    client: TestClient, station: Station, ready: dict[str, Any], row: Row
+) -> None:
+    site_id, file = ready["site_id"], shown_file(station.settings.data_dir / "robot", ready["site_id"])
+    station.trunk_maps.add(site_id, "a" * 16, beside(row, "a"))
+    assert len(decode(TrunkMap, file.read_bytes()).trunks) == 6
+    client.delete(f"/api/sites/{site_id}/trunks/a-1")
+    assert len(decode(TrunkMap, file.read_bytes()).trunks) == 5
+    client.delete(f"/api/sites/{site_id}/trunks")
+    assert decode(TrunkMap, file.read_bytes()).trunks == ()

@@ -668,9 +668,33 @@ export interface paths {
          * @description The trunk map as GeoJSON.
          */
         get: operations["export_geojson_api_sites__site_id__trunks_geojson_get"];
-        put?: never;
+        /**
+         * Import Geojson
+         * @description Put a GeoJSON file in the place of the trunk map; every problem at once, and then nothing is changed.
+         */
+        put: operations["import_geojson_api_sites__site_id__trunks_geojson_put"];
         post?: never;
         delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{site_id}/trunks/{trunk_id}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        post?: never;
+        /**
+         * Delete Trunk
+         * @description Take one trunk off the map: a stake, or a tree that was felled.
+         */
+        delete: operations["delete_trunk_api_sites__site_id__trunks__trunk_id__delete"];
         options?: never;
         head?: never;
         patch?: never;
@@ -3603,6 +3627,73 @@ export interface operations {
                         [key: string]: unknown;
                     };
                 };
+            };
+            /** @description Any error */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorDocument"];
+                };
+            };
+        };
+    };
+    import_geojson_api_sites__site_id__trunks_geojson_put: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                site_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": {
+                    [key: string]: unknown;
+                };
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TrunkMapDocument"];
+                };
+            };
+            /** @description Any error */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorDocument"];
+                };
+            };
+        };
+    };
+    delete_trunk_api_sites__site_id__trunks__trunk_id__delete: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                site_id: string;
+                trunk_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
             };
             /** @description Any error */
             default: {

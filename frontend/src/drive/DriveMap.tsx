@@ -1,6 +1,7 @@
 import { useCallback, useState } from "react";
 
 import type { MissionPlan, Robot, SiteDocument } from "../api/types";
+import { useTopic } from "../live/hooks";
 import { FitTo } from "../map/FitTo";
 import { FollowButton } from "../map/FollowButton";
 import { LiveDrivenLayer } from "../map/LiveDrivenLayer";
@@ -12,9 +13,20 @@ import { SiteLayer } from "../map/SiteLayer";
 import { TrunkLayer } from "../map/TrunkLayer";
 import { firstExtent } from "../map/fit";
 import { useSiteFrame } from "../map/useSiteFrame";
+import { isUnderWay } from "../ui/words";
 import css from "./drive.module.css";
+import { useDriveToTrunk } from "./useDriveToTrunk";
 
-export function DriveMap({ document, robot, plan }: { document: SiteDocument; robot: Robot; plan: MissionPlan | null }) {
+interface Props {
+  document: SiteDocument;
+  robot: Robot;
+  plan: MissionPlan | null;
+  onMission: (id: string) => void;
+}
+
+export function DriveMap({ document, robot, plan, onMission }: Props) {
+  const toTrunk = useDriveToTrunk(document.id, onMission);
+  const underWay = isUnderWay(useTopic("nav/status")?.state);
   const frame = useSiteFrame(document.site.datum);
   const [follow, setFollow] = useState(false);
   const extent = useCallback(() => firstExtent(document.site, document.orthophoto, frame), [document, frame]);
@@ -25,7 +37,7 @@ export function DriveMap({ document, robot, plan }: { document: SiteDocument; ro
       <PlanLayer plan={plan} frame={frame} />
       <LiveDrivenLayer frame={frame} />
       <LiveRobotLayer frame={frame} vehicle={robot.vehicle} follow={follow} />
-      <TrunkLayer siteId={document.id} frame={frame} />
+      <TrunkLayer siteId={document.id} frame={frame} onDrive={underWay ? undefined : toTrunk} />
       <FitTo extent={extent} subject={document.id} />
       <FollowButton follow={follow} onChange={setFollow} />
     </MapView>

@@ -3,6 +3,7 @@ import { useMediaQuery } from "@mantine/hooks";
 import { useQuery } from "@tanstack/react-query";
 import { useState } from "react";
 
+import { useChosenMission } from "../api/chosenMission";
 import { missionsQuery, previewQuery } from "../api/queries";
 import type { MissionPlan, Robot, SiteDocument } from "../api/types";
 import { useTopic } from "../live/hooks";
@@ -29,7 +30,7 @@ const NARROW = [...WIDE, { value: "camera" as const, label: "Camera" }];
 export function DriveView({ robot, document }: { robot: Robot; document: SiteDocument }) {
   const narrow = useMediaQuery("(max-width: 720px)", false, { getInitialValueInEffect: false });
   const [chosen, setView] = useState<ViewName>("map");
-  const [missionId, setMissionId] = useState<string | null>(null);
+  const [missionId, setMissionId] = useChosenMission(document.id);
   const missions = useQuery(missionsQuery(document.id)).data ?? [];
   const mission = missions.find(({ id }) => id === missionId) ?? missions[0] ?? null;
   const preview = useQuery(previewQuery(document.id, mission?.mission ?? null, document.version));
@@ -41,7 +42,7 @@ export function DriveView({ robot, document }: { robot: Robot; document: SiteDoc
       <Banner document={document} missions={missions} mission={mission} preview={preview.data} onMission={setMissionId} />
       <section className={css.main}>
         <SegmentedControl className={css.views} value={view} onChange={(value) => setView(value as ViewName)} data={narrow ? NARROW : WIDE} />
-        {view === "map" && <DriveMap document={document} robot={robot} plan={plan} />}
+        {view === "map" && <DriveMap document={document} robot={robot} plan={plan} onMission={setMissionId} />}
         {view === "scene" && <SceneView available={robot.scene} />}
         {view === "scan" && <ScanView />}
         {view === "camera" && <LiveCamera />}

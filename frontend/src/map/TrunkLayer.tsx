@@ -1,4 +1,4 @@
-import { ActionIcon, Button, CloseButton, Paper } from "@mantine/core";
+import { ActionIcon, CloseButton, Paper } from "@mantine/core";
 import { useQuery } from "@tanstack/react-query";
 import { IconTrees } from "@tabler/icons-react";
 import type { MapBrowserEvent } from "ol";
@@ -8,10 +8,12 @@ import { trunksQuery } from "../api/queries";
 import type { Trunk } from "../api/types";
 import type { SiteFrame } from "../geo/siteFrame";
 import { useMap } from "./MapView";
+import { TrunkCard } from "./TrunkCard";
+import { TrunkMenu } from "./TrunkMenu";
 import { Z, useVectorLayer } from "./layer";
 import css from "./trunks.module.css";
 import { trunkAt } from "./trunkAt";
-import { trunkFeatures, trunkStyle, trunkWords } from "./trunkFeatures";
+import { trunkFeatures, trunkStyle } from "./trunkFeatures";
 
 interface Props {
   siteId: string;
@@ -34,7 +36,7 @@ export function TrunkLayer({ siteId, frame, onDrive }: Props) {
         <IconTrees size={26} />
       </ActionIcon>
       {shown && trunks.length > 0 && <Dots trunks={trunks} frame={frame} onChoose={setChosen} />}
-      {shown && map && trunks.length === 0 && <NoTrunks onClose={() => setWanted(false)} />}
+      {shown && map && trunks.length === 0 && <NoTrunks siteId={siteId} onClose={() => setWanted(false)} />}
       {shown && chosen && <TrunkCard siteId={siteId} trunk={chosen} onDrive={onDrive} onClose={() => setChosen(null)} />}
     </>
   );
@@ -62,39 +64,11 @@ function Dots({ trunks, frame, onChoose }: { trunks: readonly Trunk[]; frame: Si
   return null;
 }
 
-function NoTrunks({ onClose }: { onClose: () => void }) {
+function NoTrunks({ siteId, onClose }: { siteId: string; onClose: () => void }) {
   return (
     <Paper className={css.card} shadow="md" p="sm">
-      <span>No trunks are mapped yet. They appear after a run through a row with a 2D LiDAR.</span>
-      <CloseButton size="xl" onClick={onClose} aria-label="Close" />
-    </Paper>
-  );
-}
-
-interface CardProps {
-  siteId: string;
-  trunk: Trunk;
-  onDrive: Props["onDrive"];
-  onClose: () => void;
-}
-
-function TrunkCard({ siteId, trunk, onDrive, onClose }: CardProps) {
-  const [address] = trunk.addresses;
-  const drive = () => {
-    onDrive?.(address!.row_id, trunk.id);
-    onClose();
-  };
-  return (
-    <Paper className={css.card} shadow="md" p="sm">
-      <b>{trunkWords(trunk)}</b>
-      {onDrive && address && (
-        <Button size="lg" onClick={drive}>
-          Drive to this trunk
-        </Button>
-      )}
-      <span>
-        All trunks as <a href={`/api/sites/${siteId}/trunks/geojson`}>GeoJSON</a> or <a href={`/api/sites/${siteId}/trunks/csv`}>CSV</a>
-      </span>
+      <span>No trunks are mapped yet. They appear after a run through a row with a 2D LiDAR, or from a file.</span>
+      <TrunkMenu siteId={siteId} onDeleted={onClose} />
       <CloseButton size="xl" onClick={onClose} aria-label="Close" />
     </Paper>
   );

@@ -56,6 +56,8 @@ FAULTS: dict[str, dict[str, Any]] = {
     "beside_entrance": {"mode": NavMode.ROW_ENTRY, "room": 0.05},
     "row_unseen": {"mode": NavMode.ROW, "row_age_s": 0.6},
     "carried_too_far": {"mode": NavMode.HEADLAND, "carried": 31.0},
+    "map_unsure": {"mode": NavMode.MAP, "map_age_s": 0.9},
+    "map_disputed": {"map_disputed": True, "map_reason": "RTK and the 3D map are 0.6 m apart"},
     "held_too_long": {"state": RunState.HOLDING, "held_s": 21.0},
     "off_path": {"lateral_error": -0.35},
     "far_off_path": {"lateral_error": 0.6},
@@ -119,3 +121,12 @@ def test_a_vague_position_keeps_from_setting_off_only_where_gnss_is_driven_on(
 ) -> None:
     facts = replace(WELL, state=state, mode=mode, pose_std=1.0, row_age_s=0.1)
     assert ("position_unsure" in [event.name for event in active_events(facts, PARAMS)]) is doubted
+
+
+def test_a_robot_that_drives_on_the_3d_map_waits_as_soon_as_others_contradict_it() -> None:
+    on_map = replace(WELL, mode=NavMode.MAP, map_age_s=0.1, gnss_age_s=30.0)
+    assert names(on_map) == set()
+    disputed = replace(on_map, map_disputed=True, map_reason="the 3D map's place jumped 0.5 m against the wheels")
+    assert names(disputed) == {"map_unsure"}
+    assert names(replace(on_map, pose_std=0.3)) == {"map_unsure"}
+    assert names(replace(on_map, map_age_s=math.nan)) == {"map_unsure"}

@@ -16,6 +16,7 @@ from navcore.messages import RequestKind, RunState
 from navcore.mission.driver import Driving
 from navcore.mission.evidence import GnssEvidence, GnssEvidenceParams
 from navcore.mission.guard_orders import GuardOrders
+from navcore.mission.map_evidence import MapEvidence, MapEvidenceParams
 from navcore.mission.senses import Senses
 
 MS = 1_000_000
@@ -34,8 +35,9 @@ def senses(chassis: ChassisState | None = STANDING, guard: GuardState = GuardSta
     frame = EnuFrame(Datum(lat_deg=31.4, lon_deg=120.9, height_m=8.0))
     check = IndependentCheck(frame, IndependentCheckParams())
     made = Senses(
-        PoseFilter(frame, PoseFilterParams()), GnssEvidence(GnssEvidenceParams()), Attitude(AttitudeParams()), check
-    )
+        PoseFilter(frame, PoseFilterParams()), GnssEvidence(GnssEvidenceParams()), Attitude(AttitudeParams()), check,
+        MapEvidence(frame, MapEvidenceParams()),
+    )  # fmt: skip
     made.chassis = chassis and replace(chassis, guard=guard)
     return made
 

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from dataclasses import replace
 from itertools import product
+from typing import Any
 
 from navcore.messages import NavMode, SegmentKind
-from navcore.mission.mode_selector import ModeFacts, ModeSelectorParams, select_mode
+from navcore.mission.mode_facts import ModeFacts, ModeSelectorParams
+from navcore.mission.mode_selector import select_mode
 
 PARAMS = ModeSelectorParams()
 OPEN_ROAD = ModeFacts(
@@ -139,3 +141,33 @@ def test_the_same_facts_never_switch_back_and_forth() -> None:
         for _ in range(4):
             modes.append(mode_after(modes[-1], facts))
         assert modes[-1] is modes[-2]
+
+
+ON_MAP: dict[str, Any] = {"map_streak": 10, "map_age_s": 0.1}
+
+
+def test_the_3d_map_takes_over_where_gnss_has_no_fix() -> None:
+    no_fix = replace(OPEN_ROAD, gnss_streak=0, gnss_std=0.05)
+    assert mode_after(NavMode.GNSS_PATH, no_fix) is NavMode.GNSS_PATH
+    assert mode_after(NavMode.GNSS_PATH, replace(no_fix, **ON_MAP)) is NavMode.MAP
+    assert mode_after(NavMode.GNSS_PATH, replace(no_fix, **ON_MAP, gnss_std=0.3)) is NavMode.GNSS_PATH
+    assert mode_after(NavMode.GNSS_PATH, replace(OPEN_ROAD, **ON_MAP)) is NavMode.GNSS_PATH
+    assert mode_after(NavMode.MAP, OPEN_ROAD) is NavMode.GNSS_PATH
+
+
+def test_the_3d_map_leads_through_a_row_only_if_the_row_lies_where_it_is_drawn() -> None:
+    gone = replace(IN_ROW, row_streak=0, row_age_s=0.4, gnss_std=0.03, **ON_MAP)
+    assert mode_after(NavMode.ROW, gone) is NavMode.ROW
+    assert mode_after(NavMode.ROW, replace(gone, map_leads=True)) is NavMode.MAP
+    assert mode_after(NavMode.MAP, replace(IN_ROW, row_streak=5, row_age_s=0.1)) is NavMode.ROW
+
+
+def test_gnss_does_not_take_over_from_the_map_inside_a_row() -> None:
+    inside = replace(IN_ROW, row_streak=0, row_age_s=5.0, gnss_std=0.02, gnss_streak=100, map_leads=True, **ON_MAP)
+    assert mode_after(NavMode.MAP, inside) is NavMode.MAP
+
+
+def test_the_3d_map_takes_the_robot_from_the_row_to_the_road_without_waiting_for_gnss() -> None:
+    left = replace(LEFT_ROW, gnss_std=0.03, gnss_streak=0)
+    assert mode_after(NavMode.ROW_END, left) is NavMode.ROW_END
+    assert mode_after(NavMode.ROW_END, replace(left, **ON_MAP)) is NavMode.MAP

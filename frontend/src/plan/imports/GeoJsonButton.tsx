@@ -3,7 +3,7 @@ import { IconFileImport } from "@tabler/icons-react";
 import { useMutation } from "@tanstack/react-query";
 
 import { post } from "../../api/client";
-import { readJson } from "./readJson";
+import { readJson } from "../../api/readJson";
 
 interface Props<T> {
   /** Where the file's content is sent. */

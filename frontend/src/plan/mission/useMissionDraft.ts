@@ -1,6 +1,7 @@
 import { useMutation, useQuery, useQueryClient } from "@tanstack/react-query";
 import { useState } from "react";
 
+import { useChosenMission } from "../../api/chosenMission";
 import { post, put } from "../../api/client";
 import { previewQuery } from "../../api/queries";
 import type { Mission, MissionDocument, Point, RowExit, SiteDocument } from "../../api/types";
@@ -18,7 +19,12 @@ export function useMissionDraft(document: SiteDocument) {
   const [draft, setDraft] = useState<Draft | null>(null);
   const [exit, setExit] = useState<RowExit>("reverse");
   const [place, setPlace] = useState<Point | null>(null);
+  const [, choose] = useChosenMission(document.id);
   const preview = useQuery(previewQuery(document.id, draft?.mission ?? null, document.version));
+  const open = (stored: MissionDocument) => {
+    setDraft({ stored, mission: stored.mission });
+    choose(stored.id);
+  };
   const edit = (mission: Mission) => setDraft((before) => before && { ...before, mission });
   const forRow = useMutation({
     mutationFn: (to: { row_id: string; stop_at?: string }) => post<Mission>(`/api/sites/${document.id}/missions/for-row`, { exit, ...to }),
@@ -30,7 +36,7 @@ export function useMissionDraft(document: SiteDocument) {
         ? put<MissionDocument>(`/api/missions/${stored.id}`, { version: stored.version, mission })
         : post<MissionDocument>(`/api/sites/${document.id}/missions`, { mission }),
     onSuccess: (stored) => {
-      setDraft({ stored, mission: stored.mission });
+      open(stored);
       void client.invalidateQueries({ queryKey: ["missions"] });
     },
   });
@@ -45,7 +51,7 @@ export function useMissionDraft(document: SiteDocument) {
     edit,
     save,
     making: forRow.isPending,
-    open: (stored: MissionDocument) => setDraft({ stored, mission: stored.mission }),
+    open,
     close: () => setDraft(null),
     pressRow: (row_id: string) => (draft ? edit(addVisit(draft.mission, row_id)) : forRow.mutate({ row_id })),
     /** A new mission to a trunk beside a row, and back out in reverse. */

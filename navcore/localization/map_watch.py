@@ -1,0 +1,128 @@
+"""Whether the 3D map's matches may be believed: asked of wheels, gyro, RTK and rows, not of the match's own score.
+
+A high score does not show that a match is right: rows and posts repeat. What cannot be fooled the same way is the way
+driven since the last match, a fixed RTK position, and how a row that is seen lies beside where the map puts it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+from dataclasses import dataclass
+
+from navcore.geometry.se2 import SE2
+from navcore.messages import MapMatch, MatchState
+
+NS = 1e-9
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MapWatchParams:
+    """Parameters of `MapWatch`.
+
+    Attributes:
+        back_s: matches are compared with that of so long ago, s.
+        jump: m, by so much two matches may differ from the way driven between them; `jump_share`: of that way.
+        jump_yaw: rad, the same of the direction.
+        apart: m, a fixed RTK position and the match may differ by this.
+        row_apart: m, by so much a row may seem to move sideways against the map.
+        patience: so many contradictions in a row are believed, and so many agreements end the doubt.
+        learn: so many looks at a row say where it lies against the map.
+    """
+
+    back_s: float = 0.8
+    jump: float = 0.12
+    jump_share: float = 0.08
+    jump_yaw: float = 0.06
+    apart: float = 0.3
+    row_apart: float = 0.3
+    patience: int = 2
+    learn: int = 10
+
+
+@dataclass(slots=True)
+class Doubts:
+    """One witness' contradictions in a row, and what it said last."""
+
+    patience: int
+    count: int = 0
+    reason: str = ""
+
+    def hear(self, contradiction: str) -> None:
+        """A word of the witness; empty if it agrees."""
+        self.count = min(self.count + 1, 2 * self.patience) if contradiction else max(self.count - 1, 0)
+        if contradiction and self.count >= self.patience:
+            self.reason = contradiction
+        elif self.count == 0:
+            self.reason = ""
+
+
+class MapWatch:
+    """Fed with matches and with what others say of the same moment; `reason` tells why not to believe."""
+
+    def __init__(self, params: MapWatchParams | None = None) -> None:
+        self._p = p = params or MapWatchParams()
+        self._matches: deque[tuple[MapMatch, SE2]] = deque(maxlen=50)
+        self._wheels, self._fix, self._row = (Doubts(p.patience) for _ in range(3))
+        self._row_id: str | None = None
+        self._row_places: list[float] = []
+
+    @property
+    def reason(self) -> str:
+        """Why the map is not believed, empty if it is."""
+        return self._wheels.reason or self._fix.reason or self._row.reason
+
+    def add_match(self, match: MapMatch, T_odom_base: SE2) -> bool:
+        """A match and the odometry at its capture; whether it may be used."""
+        if match.state is not MatchState.MATCHED:
+            self._matches.clear()
+            return False
+        if (before := self._before(match)) is not None:
+            self._wheels.hear(self._jumped(before, match, T_odom_base))
+        self._matches.append((match, T_odom_base))
+        return not self.reason
+
+    def add_fix(
+        self, stamp_ns: int, x: float, y: float, std: float, T_odom_at: SE2, antenna: tuple[float, float]
+    ) -> None:
+        """A fixed RTK position of the antenna in `map`, m, with the odometry at its capture."""
+        if not self._matches or abs(stamp_ns - self._matches[-1][0].stamp_ns) * NS > self._p.back_s:
+            return
+        match, T_odom_base = self._matches[-1]
+        here = SE2(match.x, match.y, match.yaw) @ T_odom_base.inverse() @ T_odom_at
+        off = math.dist(here.apply_point(*antenna), (x, y))
+        apart = off > self._p.apart + 3.0 * std
+        self._fix.hear(f"RTK and the 3D map are {off:.1f} m apart" if apart else "")
+
+    def add_row(self, row_id: str, lateral_seen: float, lateral_by_map: float) -> None:
+        """Where a seen row's middle lies, and where the map puts that of the drawn one, m to the left."""
+        if row_id != self._row_id:
+            self._row_id, self._row_places = row_id, []
+        off = lateral_seen - lateral_by_map
+        if len(self._row_places) < self._p.learn:
+            self._row_places.append(off)
+            return
+        moved = abs(off - sorted(self._row_places)[self._p.learn // 2])
+        self._row.hear(f"the row seems to lie {moved:.1f} m beside itself" if moved > self._p.row_apart else "")
+
+    def row_agrees(self, row_id: str | None, within: float) -> bool:
+        """Whether that row was seen to lie where it is drawn: only then may the map lead through it."""
+        if row_id is None or row_id != self._row_id or len(self._row_places) < self._p.learn:
+            return False
+        return abs(sorted(self._row_places)[self._p.learn // 2]) <= within
+
+    def _before(self, match: MapMatch) -> tuple[MapMatch, SE2] | None:
+        """The oldest match of at most `back_s` ago."""
+        while self._matches and (match.stamp_ns - self._matches[0][0].stamp_ns) * NS > self._p.back_s:
+            self._matches.popleft()
+        return self._matches[0] if self._matches else None
+
+    def _jumped(self, before: tuple[MapMatch, SE2], now: MapMatch, T_odom_base: SE2) -> str:
+        p, (match, T_odom_before) = self._p, before
+        moved = SE2(match.x, match.y, match.yaw).inverse() @ SE2(now.x, now.y, now.yaw)
+        driven = T_odom_before.inverse() @ T_odom_base
+        off = math.hypot(moved.x - driven.x, moved.y - driven.y)
+        turned = abs((driven.inverse() @ moved).yaw)
+        if off > p.jump + p.jump_share * math.hypot(driven.x, driven.y):
+            return f"the 3D map's place jumped {off:.1f} m against the wheels"
+        return f"the 3D map's direction jumped {math.degrees(turned):.0f} deg" if turned > p.jump_yaw else ""

@@ -1,0 +1,71 @@
+"""Where a 3D LiDAR's cloud lies on the map."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+from navcore.messages.sensing import FixQuality
+from navcore.messages.status import PoseEstimate
+
+
+class MatchState(StrEnum):
+    """MATCHED is evidence; every other says why there is none."""
+
+    MATCHED = "matched"
+    STARTING = "starting"
+    AMBIGUOUS = "ambiguous"
+    LOST = "lost"
+    NO_MAP = "no_map"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MapMatch:
+    """One cloud on the map of cells. All but `stamp_ns`, `state` and `reason` is of the newest match that there was.
+
+    Attributes:
+        stamp_ns: capture of the cloud's last point.
+        reason: a sentence's part that says why it is not MATCHED, else empty.
+        x, y, z, roll, pitch, yaw: `base_link` in `map`, m and rad.
+        covariance: of (x, y, yaw), row-major 9 numbers.
+        score: 0 to 1, how well the points fit the cells; a high one does not prove the place.
+        rival: score of the best other place that was tried, 0 to 1.
+        points: number of points that were matched. latency_ms: from capture to publication.
+    """
+
+    stamp_ns: int
+    state: MatchState
+    reason: str = ""
+    x: float = 0.0
+    y: float = 0.0
+    z: float = 0.0
+    roll: float = 0.0
+    pitch: float = 0.0
+    yaw: float = 0.0
+    covariance: tuple[float, ...] = (0.0,) * 9
+    score: float = 0.0
+    rival: float = 0.0
+    points: int = 0
+    latency_ms: float = 0.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Odometry:
+    """The navigator's motion, for whoever must know how the robot moved during a scan. Frame: `odom`, `base_link`.
+
+    Attributes:
+        x, y, yaw: of `base_link` in `odom`, which drifts but never jumps, m and rad. v, omega: m/s and rad/s.
+        roll, pitch: against gravity, rad (REP 103).
+        pose: in `map` by all that the filter believes, None before it knows. quality: of the newest fix.
+    """
+
+    stamp_ns: int
+    x: float
+    y: float
+    yaw: float
+    v: float
+    omega: float
+    roll: float
+    pitch: float
+    pose: PoseEstimate | None
+    quality: FixQuality
