@@ -10,6 +10,8 @@ from navcore.cli import (
     decode_rplidar,
     evaluate,
     export,
+    odometry,
+    register,
     replay,
     report,
     run,
@@ -40,6 +42,8 @@ see.register(app)
 score.register(app)
 report.register(app)
 trunks.register(app)
+register.register(app)
+odometry.register(app)
 
 
 @app.callback()
