@@ -1,0 +1,1 @@
+"""Registration of scans to an NDT map."""

@@ -1,0 +1,119 @@
+"""Registration of a scan to an NDT map: a search about the guess, then descents from coarse to fine.
+
+Published NDT descends once, on one scale, with a score as steep as the cells' own: half a metre off, most points
+lie in no Gaussian and pull nowhere. Here scores are looked at first from places about the guess; each descent then
+starts flat, so that far points pull too, and ends steep, so that leaves and people do not; and cells do not pull
+points to their middles (`CellParams.debiased`).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from navcore.errors import NotFiniteError
+from navcore.geometry.se3 import SE3
+from navcore.localization.ndt.descent import descend
+from navcore.localization.ndt.registration import Floats, Registration
+from navcore.localization.ndt.start_search import StartSearchParams, best_start
+from navcore.localization.ndt.uncertainty import UncertaintyParams, covariance_of, weak_directions
+from navcore.maps.ndt.ndt_map import NdtMap
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Stage:
+    """One descent.
+
+    Attributes:
+        grid: of the map, 0 the coarsest; the finest stands for those that a map does not have.
+        stride: every so-manieth point is used, at least 1.
+        steepness: a point at squared Mahalanobis distance m weighs exp(-steepness m / 2), above 0.
+        steps: at most, at least 1.
+        enough, enough_turn: it is at rest when a step is shorter, m and rad.
+    """
+
+    grid: int
+    stride: int
+    steepness: float
+    steps: int
+    enough: float = 0.02
+    enough_turn: float = 0.01
+
+
+_STAGES = (
+    Stage(grid=0, stride=4, steepness=0.1, steps=10),
+    Stage(grid=1, stride=2, steepness=0.2, steps=8),
+    Stage(grid=2, stride=1, steepness=0.6, steps=20, enough=0.001, enough_turn=0.001),
+)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NdtMatcherParams:
+    """Parameters of `NdtMatcher`.
+
+    Attributes:
+        search: about the guess, on the coarsest cells.
+        stages: from coarse to fine (chosen on farms whose seeds no figure rests on).
+        guess_std, guess_turn_std: 1-sigma of the guess, m and rad: it holds the pose where the map says nothing.
+        least_points: a scan has, at least 6. least_overlap: share of them that must lie in cells, 0 to 1.
+        uncertainty: of the result.
+    """
+
+    search: StartSearchParams = field(default_factory=StartSearchParams)
+    stages: tuple[Stage, ...] = _STAGES
+    guess_std: float = 1.0
+    guess_turn_std: float = 0.3
+    least_points: int = 100
+    least_overlap: float = 0.2
+    uncertainty: UncertaintyParams = field(default_factory=UncertaintyParams)
+
+
+class NdtMatcher:
+    """Lays scans onto a map."""
+
+    def __init__(self, ndt_map: NdtMap, params: NdtMatcherParams = NdtMatcherParams()) -> None:
+        self._map, self._params = ndt_map, params
+        self._hold = np.repeat((params.guess_std**-2, params.guess_turn_std**-2), 3)
+
+    def match(self, points: Floats, guess: SE3) -> Registration:
+        """Pose of a scan's points (N, 3), m, thinned to some thousands, from a guess of it.
+
+        Raises NotFiniteError for NaN or infinity in either.
+        """
+        points = np.ascontiguousarray(points, dtype=np.float64)
+        start = np.column_stack((guess.R, guess.t))
+        if not (np.isfinite(points).all() and np.isfinite(start).all()):
+            raise NotFiniteError("A point or the guess of its place is NaN or infinite; drop such points.")
+        if len(points) < self._params.least_points:
+            return self._unknown(guess, f"The scan has {len(points)} points, {self._params.least_points} are needed.")
+        return self._matched(points, guess, start)
+
+    def _matched(self, points: Floats, guess: SE3, start: Floats) -> Registration:
+        grids, p = self._map.grids, self._params
+        pose = best_start(points, start, grids[0].cells(), p.search)
+        H, steps, weights, met, rested = np.zeros((6, 6)), 0, 0.0, 0, False
+        for s in p.stages:
+            cells = grids[min(s.grid, len(grids) - 1)].cells()
+            taken, rested, weights, met = descend(
+                points, s.stride, start, pose, cells, s.steepness, s.steps, (s.enough, s.enough_turn), self._hold, H
+            )
+            steps += taken
+        overlap = met / math.ceil(len(points) / p.stages[-1].stride)
+        if overlap < p.least_overlap:
+            return self._unknown(guess, f"Only {overlap:.0%} of the scan's points lie where the map has any.", steps)
+        covariance = covariance_of(H, self._hold, p.uncertainty)
+        return Registration(
+            T_target_source=SE3(pose[:, :3].copy(), pose[:, 3].copy()), covariance=covariance,
+            score=weights / math.ceil(len(points) / p.stages[-1].stride), overlap=overlap, iterations=steps,
+            reason=None if rested else f"The match did not come to rest within {p.stages[-1].steps} steps.",
+            weak=weak_directions(covariance, p.uncertainty),
+        )  # fmt: skip
+
+    def _unknown(self, guess: SE3, reason: str, steps: int = 0) -> Registration:
+        covariance = covariance_of(np.zeros((6, 6)), self._hold, self._params.uncertainty)
+        return Registration(
+            T_target_source=guess, covariance=covariance, score=0.0, overlap=0.0, iterations=steps, reason=reason,
+            weak=weak_directions(covariance, self._params.uncertainty),
+        )  # fmt: skip

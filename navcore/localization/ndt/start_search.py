@@ -1,0 +1,74 @@
+"""Where to start: the guess may be half a metre and ten degrees off, which is further than a descent finds its way."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numba import njit
+
+from navcore.localization.ndt.match_kernels import Floats, weight_sum
+from navcore.maps.ndt.cell_grid import Cells
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StartSearchParams:
+    """Places and headings about the guess that are weighed.
+
+    Attributes:
+        reach: furthest place, m, at least 0. turn: furthest heading, rad, at least 0.
+        step: between two places, m, above 0. turn_step: between two headings, rad, above 0.
+        points: of the scan that are looked at, about, at least 1.
+        steepness: of the score, see `normal_equations`.
+    """
+
+    reach: float = 0.8
+    turn: float = math.radians(12.0)
+    step: float = 0.4
+    turn_step: float = math.radians(4.0)
+    points: int = 250
+    steepness: float = 0.3
+
+
+def best_start(points: Floats, guess: Floats, cells: Cells, params: StartSearchParams) -> Floats:
+    """The pose (3, 4) of the best score."""
+    shifts, turns = _shifts(params.reach, params.step), _turns(params.turn, params.turn_step)
+    if len(shifts) * len(turns) == 1:
+        return guess.copy()
+    stride = max(1, len(points) // params.points)
+    return np.asarray(_best(points, stride, guess, cells, params.steepness, shifts, turns))
+
+
+@lru_cache(maxsize=16)
+def _shifts(reach: float, step: float) -> Floats:
+    """Places (M, 2) within `reach`, the middle first, so that it wins where all are equal."""
+    n = math.floor(reach / step + 1e-9)
+    square = np.array([(i * step, j * step) for i in range(-n, n + 1) for j in range(-n, n + 1)])
+    away = np.hypot(square[:, 0], square[:, 1])
+    inside = np.flatnonzero(away <= reach + 1e-9)
+    return np.asarray(square[inside[np.argsort(away[inside], kind="stable")]])
+
+
+@lru_cache(maxsize=16)
+def _turns(turn: float, step: float) -> Floats:
+    n = math.floor(turn / step + 1e-9)
+    return np.array(sorted(range(-n, n + 1), key=abs)) * step
+
+
+@njit(cache=True, nogil=True)
+def _best(
+    points: Floats, stride: int, guess: Floats, cells: Cells, steepness: float, shifts: Floats, turns: Floats
+) -> Floats:
+    best, top = guess.copy(), -1.0
+    R0, t = np.ascontiguousarray(guess[:, :3]), np.empty(3)
+    for turn in turns:
+        c, s = math.cos(turn), math.sin(turn)
+        R = np.array(((c, -s, 0.0), (s, c, 0.0), (0.0, 0.0, 1.0))) @ R0
+        for n in range(len(shifts)):
+            t[0], t[1], t[2] = guess[0, 3] + shifts[n, 0], guess[1, 3] + shifts[n, 1], guess[2, 3]
+            score = weight_sum(points, stride, R, t, cells, steepness)
+            if score > top:
+                best[:, :3], best[:, 3], top = R, t, score
+    return best

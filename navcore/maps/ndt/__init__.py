@@ -1,0 +1,1 @@
+"""The NDT map: Gaussians of the points in cubes of space, on several scales, and its file."""
