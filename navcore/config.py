@@ -11,6 +11,7 @@ from typing import Any, get_type_hints
 import msgspec
 
 from navcore.drivers.camera_capture import CameraParams
+from navcore.drivers.lidar3d.lidar3d_params import Lidar3dParams
 from navcore.drivers.rplidar.lidar_params import LidarParams
 from navcore.errors import ConfigError
 from navcore.geometry.pinhole import robot_camera
@@ -32,6 +33,7 @@ class RobotConfig:
         front_camera, rear_camera: of a real robot; a simulated one has paper A's.
         lidar: a 2D LiDAR, if there is one; a simulated robot has one if its simulation says so. scan: how plants are
             followed in its scans.
+        lidar3d: a 3D LiDAR, if there is one.
         detector: of trunks and posts.
     """
 
@@ -39,6 +41,7 @@ class RobotConfig:
     front_camera: CameraParams = field(default_factory=CameraParams)
     rear_camera: CameraParams = field(default_factory=lambda: CameraParams(mount=robot_camera(rear=True)))
     lidar: LidarParams = field(default_factory=LidarParams)
+    lidar3d: Lidar3dParams = field(default_factory=Lidar3dParams)
     scan: ScanEyeParams = field(default_factory=ScanEyeParams)
     detector: DetectorParams = field(default_factory=DetectorParams)
     navigator: NavigatorParams = field(default_factory=NavigatorParams)
