@@ -62,7 +62,7 @@ def _step(i: int, before: Keyframe, after: Keyframe, p: DriveGraphParams) -> Rel
         way = float(np.linalg.norm(T.t))
         floor += np.repeat(((p.slip * way) ** 2, (p.slip_turn * way) ** 2), 3)
     covariance = along_axes(after.covariance, before.T_odom_base.R.T) + np.diag(floor)
-    return RelativeTerm(i=i, j=i + 1, T_i_j=T, information=np.linalg.inv(covariance))
+    return RelativeTerm(i=i, j=i + 1, T_i_j=T, information=np.asarray(np.linalg.inv(covariance)))
 
 
 def along_axes(covariance: Floats, R: Floats) -> Floats:

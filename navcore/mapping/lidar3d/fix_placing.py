@@ -54,7 +54,7 @@ class FixPlacer:
         self._fixes = []
 
     def best(self, track: MotionTrack | None, T_odom_base: SE3) -> PlacedFix | None:
-        """The surest of those on the track (of `base_link` in `odom`) as seen from a keyframe; the rest is dropped."""
+        """The surest on the track (of `base_link` in `odom`) as seen from a keyframe; the rest is dropped."""
         fixes, self._fixes = self._fixes, []
         if track is None or self._frame is None:
             return None
@@ -63,10 +63,9 @@ class FixPlacer:
             return None
         best = min(on_track, key=lambda f: (self._std(f)[0], -f.stamp_ns))
         T_base_then = T_odom_base.inverse() @ track.T_still_base(best.stamp_ns)
-        assert best.lat_deg is not None and best.lon_deg is not None and best.height_m is not None
         return PlacedFix(
-            antenna=T_base_then.apply(self._antenna), std=self._std(best), quality=int(best.quality),
-            place=np.array(self._frame.to_enu(best.lat_deg, best.lon_deg, best.height_m)),
+            antenna=T_base_then.apply(self._antenna), place=np.array(self._frame.to_enu(*_geodetic(best))),
+            std=self._std(best), quality=int(best.quality),
         )  # fmt: skip
 
     def _std(self, fix: GnssFix) -> Floats:
@@ -78,9 +77,14 @@ class FixPlacer:
 
 
 def _is_finite(fix: GnssFix) -> bool:
-    numbers = (fix.lat_deg, fix.lon_deg, fix.height_m)
     stds = (fix.std_east_m or 0.0, fix.std_north_m or 0.0, fix.std_up_m or 0.0)
-    return None not in numbers and bool(np.isfinite(np.array((*numbers, *stds), dtype=np.float64)).all())
+    return bool(np.isfinite((*_geodetic(fix), *stds)).all())
+
+
+def _geodetic(fix: GnssFix) -> tuple[float, float, float]:
+    """Latitude, longitude, deg, and height, m; NaN where it tells none."""
+    lat, lon, height = (math.nan if a is None else a for a in (fix.lat_deg, fix.lon_deg, fix.height_m))
+    return lat, lon, height
 
 
 def is_rtk(quality: int) -> bool:

@@ -44,9 +44,7 @@ class Georeference:
     reason: str = ""
 
 
-def georeference(
-    keyframes: Sequence[Keyframe], params: GeoreferenceParams = GeoreferenceParams()
-) -> Georeference:
+def georeference(keyframes: Sequence[Keyframe], params: GeoreferenceParams = GeoreferenceParams()) -> Georeference:
     """The level motion that lays most RTK fixes on the drive's antennas, then fits those that agree."""
     fixed = [(k, k.fix) for k in keyframes if k.fix is not None and is_rtk(k.fix.quality)]
     if len(fixed) < params.least_fixes:

@@ -81,8 +81,9 @@ def read_keyframe(data: bytes) -> Keyframe:
         with np.load(io.BytesIO(data), allow_pickle=False) as parts:
             driven, scans, lost, score = parts["numbers"].tolist()
             pose, fix = parts["pose"], parts["fix"]
+            T_odom_base = SE3(pose[:, :3].copy(), pose[:, 3].copy())
             return Keyframe(
-                stamp_ns=int(parts["stamp_ns"]), driven=driven, T_odom_base=SE3(pose[:, :3].copy(), pose[:, 3].copy()),
+                stamp_ns=int(parts["stamp_ns"]), driven=driven, T_odom_base=T_odom_base,
                 covariance=parts["covariance"], up=parts["up"], points=parts["points"],
                 intensities=parts["intensities"], fix=_fix(fix), scans=int(scans), lost=int(lost), score=score,
             )  # fmt: skip

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from navcore.geometry.point_cloud import PointCloud
 from navcore.geometry.se3 import SE3
+from navcore.geometry.voxel_means import voxel_means
 from navcore.localization.deskew import Deskew, DeskewParams
 from navcore.localization.motion_track import MotionTrack
 from navcore.mapping.lidar3d.drive import Drive, Sensed
@@ -19,7 +20,7 @@ from navcore.mapping.lidar3d.fix_placing import FixPlacer, FixPlacerParams
 from navcore.mapping.lidar3d.keyframe import Keyframe
 from navcore.mapping.lidar3d.motion import Motion, MotionParams
 from navcore.mapping.lidar3d.scan_tracker import ScanTracker, ScanTrackerParams, Tracked
-from navcore.mapping.lidar3d.voxel_cloud import VoxelCloud, thinned
+from navcore.mapping.lidar3d.voxel_cloud import VoxelCloud
 from navcore.messages import NavInputs
 from navcore.messages.cloud import LidarCloud, unpacked
 
@@ -36,7 +37,7 @@ class KeyframeMakerParams:
     Attributes:
         apart, turned: a keyframe after so much way, m, or turn, rad; above 0.
         settle_s: a turn waits so long for odometry and IMU to come in, s, 0 to 1.
-        nearest, farthest: points that are kept, from the sensor, m: nearer ones are the robot, farther ones are sparse.
+        nearest, farthest: points that are kept, m from the sensor: nearer ones are the robot, farther ones sparse.
         scan_voxel: edge of the voxels of a scan that is matched, m. keyframe_voxel: of what a keyframe keeps.
         still, still_turn: with less motion since the last turn, a turn says nothing new, m and rad.
         motion, tracker, fixes, deskew: of each step.
@@ -139,7 +140,7 @@ class KeyframeMaker:
         return None if still is None else (self._T_base_lidar.apply(still.points), still)
 
     def _placed(self, stamp_ns: int, points: Floats) -> Tracked:
-        scan = thinned(points, self._params.scan_voxel)
+        scan = voxel_means(points, self._params.scan_voxel)
         if self._last is None:
             return self._tracker.place(scan, SE3(_levelled(self._motion.up(stamp_ns)), np.zeros(3)))
         guess = self._so_far.poses[-1] @ self._motion.step(self._so_far.stamps_ns[-1], stamp_ns)

@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 from scipy.spatial import KDTree
 
 from navcore.geometry.se3 import SE3
+from navcore.geometry.voxel_means import voxel_means
 from navcore.localization.ndt.ndt_matcher import NdtMatcher, NdtMatcherParams
 from navcore.localization.ndt.registration import Registration
 from navcore.mapping.lidar3d.keyframe import Keyframe
-from navcore.mapping.lidar3d.voxel_cloud import thinned
 from navcore.mapping.pose_graph.terms import RelativeTerm
 from navcore.maps.ndt.ndt_map import NdtMap, NdtMapParams
 
@@ -76,7 +76,7 @@ class Loop:
     def term(self) -> RelativeTerm:
         """For the graph."""
         return RelativeTerm(
-            i=self.i, j=self.j, T_i_j=self.T_i_j, information=np.linalg.inv(self.covariance), loop=True
+            i=self.i, j=self.j, T_i_j=self.T_i_j, information=np.asarray(np.linalg.inv(self.covariance)), loop=True
         )
 
 
@@ -109,7 +109,7 @@ class LoopFinder:
 
     def _matched(self, i: int, j: int, poses: Sequence[SE3], driven: Sequence[float]) -> Loop:
         p, guess = self._params, poses[i].inverse() @ poses[j]
-        found = NdtMatcher(self._map_about(i, poses), p.matcher).match(thinned(self._points(j), p.voxel), guess)
+        found = NdtMatcher(self._map_about(i, poses), p.matcher).match(voxel_means(self._points(j), p.voxel), guess)
         T = found.T_target_source
         off = float(np.linalg.norm(T.t - guess.t)), SE3(guess.R.T @ T.R, np.zeros(3)).angle()
         floor = np.diag(np.repeat((p.std**2, p.turn_std**2), 3))

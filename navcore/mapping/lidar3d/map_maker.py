@@ -106,8 +106,8 @@ class MapMaker:
     def _nothing(self, turns: int) -> str:
         if not turns:
             return (
-                f"{self._drive.name} has no clouds of a 3D LiDAR. Choose a run of a robot that has one, and see that it "
-                "was switched on."
+                f"{self._drive.name} has no clouds of a 3D LiDAR. Choose a run of a robot that has one, and see that "
+                "it was switched on."
             )
         return f"The robot did not move in {self._drive.name}: there is nothing to map. Choose a run that drove."
 

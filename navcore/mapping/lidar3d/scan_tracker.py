@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from navcore.geometry.se3 import SE3
+from navcore.geometry.voxel_means import voxel_means
 from navcore.localization.ndt.ndt_matcher import NdtMatcher, NdtMatcherParams, Stage
 from navcore.localization.ndt.start_search import StartSearchParams
 from navcore.mapping.lidar3d.keyframe import Keyframe
@@ -36,12 +37,15 @@ class ScanTrackerParams:
     """Parameters of `ScanTracker`.
 
     Attributes:
-        keyframes: that make the local map, at least 1.
+        keyframes: that make the local map, at least 1. least_keyframes: before that, odometry lays scans; 2 at least,
+            as the rings that one place sees on the ground move with the robot. voxel: to which each is thinned for it, m.
         ndt: its cells. matcher: of a scan on it.
         most_jump, most_turn: a match further from odometry is not believed, m and rad, above 0.
     """
 
     keyframes: int = 20
+    least_keyframes: int = 2
+    voxel: float = 0.2
     ndt: NdtMapParams = field(default_factory=NdtMapParams)
     matcher: NdtMatcherParams = field(default_factory=tracking_matcher)
     most_jump: float = 0.3
@@ -54,7 +58,7 @@ class Tracked:
 
     Attributes:
         T_odom_base: the guess where the match is not believed. covariance: (6, 6), see `Keyframe`.
-        score: 0 to 1. held: whether the match is believed.
+        score: 0 to 1. held: whether a match is believed.
     """
 
     T_odom_base: SE3
@@ -68,23 +72,24 @@ class ScanTracker:
 
     def __init__(self, params: ScanTrackerParams = ScanTrackerParams()) -> None:
         self._params = params
-        self._recent: deque[Keyframe] = deque(maxlen=params.keyframes)
+        self._recent: deque[Floats] = deque(maxlen=params.keyframes)
         self._matcher: NdtMatcher | None = None
 
     def add(self, *keyframes: Keyframe) -> None:
         """These are the newest ones, in order."""
-        self._recent.extend(keyframes)
-        if not self._recent:
+        for k in keyframes:
+            points = voxel_means(k.points.astype(np.float64), self._params.voxel)
+            self._recent.append(k.T_odom_base.apply(points))
+        if len(self._recent) < self._params.least_keyframes:
             return
         local = NdtMap(self._params.ndt)
-        for k in self._recent:
-            local.add(k.T_odom_base.apply(k.points.astype(np.float64)))
+        local.add(np.concatenate(self._recent))
         self._matcher = NdtMatcher(local, self._params.matcher)
 
     def place(self, points: Floats, guess: SE3) -> Tracked:
         """A thinned scan (N, 3) in `base_link`, m, from where odometry has it."""
         if self._matcher is None:
-            return Tracked(T_odom_base=guess, covariance=np.eye(6) * 1e-8, score=1.0, held=True)
+            return Tracked(T_odom_base=guess, covariance=np.zeros((6, 6)), score=0.0, held=False)
         found = self._matcher.match(points, guess)
         off = guess.inverse() @ found.T_target_source
         near = float(np.linalg.norm(off.t)) <= self._params.most_jump and off.angle() <= self._params.most_turn
