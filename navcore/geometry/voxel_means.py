@@ -33,7 +33,7 @@ def _means(points: Floats, size: float, table: int) -> Floats:
         x, y, z = points[n, 0], points[n, 1], points[n, 2]
         if not (abs(x) < reach and abs(y) < reach and abs(z) < reach):
             continue
-        key = key_of(int(math.floor(x / size)), int(math.floor(y / size)), int(math.floor(z / size)))
+        key = key_of(math.floor(x / size), math.floor(y / size), math.floor(z / size))
         if key != last_key:
             slot, last_key = find(keys, slots, key), key
             if slot == FREE:

@@ -27,7 +27,7 @@ def descend(
     R, t = np.ascontiguousarray(pose[:, :3]), pose[:, 3].copy()
     for count in range(most):
         weights, met = normal_equations(points, stride, R, t, cells, steepness, H, g)
-        step = -np.linalg.solve(H + np.diag(hold), g + hold * _off(guess, R, t))
+        step = np.asarray(-np.linalg.solve(H + np.diag(hold), g + hold * _off(guess, R, t)), dtype=np.float64)
         R, t = turned(R, step), t + step[:3]
         pose[:, :3], pose[:, 3] = R, t
         if _length(step[:3]) < enough[0] and _length(step[3:]) < enough[1]:

@@ -12,8 +12,8 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from navcore.maps.ndt.cell_grid import Cells
 from navcore.geometry.voxel_table import FREE, HALF, find, key_of
+from navcore.maps.ndt.cell_grid import Cells
 
 Floats = NDArray[np.float64]
 
@@ -22,7 +22,7 @@ Floats = NDArray[np.float64]
 def normal_equations(
     points: Floats, stride: int, R: Floats, t: Floats, cells: Cells, steepness: float, H: Floats, g: Floats
 ) -> tuple[float, int]:
-    """H (6, 6) and g (6,) of the weighted least squares over every `stride`-th point; sum of weights, points in cells.
+    """H (6, 6) and g (6,) of weighted least squares over every `stride`-th point; sum of weights, points in cells.
 
     A point at squared Mahalanobis distance m weighs exp(-steepness m / 2).
     """
@@ -41,7 +41,7 @@ def normal_equations(
         x, y, z = rx + t[0], ry + t[1], rz + t[2]
         if abs(x) > reach or abs(y) > reach or abs(z) > reach:
             continue
-        i, j, k = int(math.floor(x * inverse)), int(math.floor(y * inverse)), int(math.floor(z * inverse))
+        i, j, k = math.floor(x * inverse), math.floor(y * inverse), math.floor(z * inverse)
         key = key_of(i, j, k)
         if key != last_key:
             slot, last_key = find(keys, slots, key), key
@@ -108,7 +108,7 @@ def weight_sum(points: Floats, stride: int, R: Floats, t: Floats, cells: Cells, 
         z = R[2, 0] * px + R[2, 1] * py + R[2, 2] * pz + t[2]
         if abs(x) > reach or abs(y) > reach or abs(z) > reach:
             continue
-        i, j, k = int(math.floor(x * inverse)), int(math.floor(y * inverse)), int(math.floor(z * inverse))
+        i, j, k = math.floor(x * inverse), math.floor(y * inverse), math.floor(z * inverse)
         key = key_of(i, j, k)
         if key != last_key:
             slot, last_key = find(keys, slots, key), key
@@ -130,4 +130,4 @@ def turned(R: Floats, step: Floats) -> Floats:
     E = np.eye(3) + K
     if angle > 1e-9:
         E = np.eye(3) + math.sin(angle) / angle * K + (1.0 - math.cos(angle)) / angle**2 * (K @ K)
-    return E @ R
+    return np.asarray(E @ R)

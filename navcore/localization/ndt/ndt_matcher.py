@@ -70,6 +70,18 @@ class NdtMatcherParams:
     uncertainty: UncertaintyParams = field(default_factory=UncertaintyParams)
 
 
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _Descent:
+    """What a stage came to; `grid` is the one it used."""
+
+    steps: int
+    rested: bool
+    score: float
+    overlap: float
+    grid: int
+    H: Floats
+
+
 class NdtMatcher:
     """Lays scans onto a map."""
 
@@ -91,25 +103,35 @@ class NdtMatcher:
         return self._matched(points, guess, start)
 
     def _matched(self, points: Floats, guess: SE3, start: Floats) -> Registration:
-        grids, p = self._map.grids, self._params
-        pose = best_start(points, start, grids[0].cells(), p.search)
-        H, steps, weights, met, rested = np.zeros((6, 6)), 0, 0.0, 0, False
-        for s in p.stages:
-            cells = grids[min(s.grid, len(grids) - 1)].cells()
-            taken, rested, weights, met = descend(
-                points, s.stride, start, pose, cells, s.steepness, s.steps, (s.enough, s.enough_turn), self._hold, H
-            )
-            steps += taken
-        overlap = met / math.ceil(len(points) / p.stages[-1].stride)
-        if overlap < p.least_overlap:
+        p = self._params
+        pose = best_start(points, start, self._map.grids[0].cells(), p.search)
+        steps, finest, last = 0, len(self._map.grids) - 1, None
+        for stage in p.stages:
+            last = self._descend(points, stage, start, pose, finest)
+            steps = steps + last.steps
+            finest = last.grid if last.grid < stage.grid else finest
+        if last is None or last.overlap < p.least_overlap:
+            overlap = 0.0 if last is None else last.overlap
             return self._unknown(guess, f"Only {overlap:.0%} of the scan's points lie where the map has any.", steps)
-        covariance = covariance_of(H, self._hold, p.uncertainty)
+        covariance = covariance_of(last.H, self._hold, p.uncertainty)
         return Registration(
-            T_target_source=SE3(pose[:, :3].copy(), pose[:, 3].copy()), covariance=covariance,
-            score=weights / math.ceil(len(points) / p.stages[-1].stride), overlap=overlap, iterations=steps,
-            reason=None if rested else f"The match did not come to rest within {p.stages[-1].steps} steps.",
-            weak=weak_directions(covariance, p.uncertainty),
+            T_target_source=SE3(pose[:, :3].copy(), pose[:, 3].copy()), covariance=covariance, score=last.score,
+            overlap=last.overlap, iterations=steps, weak=weak_directions(covariance, p.uncertainty),
+            reason=None if last.rested else f"The match did not come to rest within {p.stages[-1].steps} steps.",
         )  # fmt: skip
+
+    def _descend(self, points: Floats, stage: Stage, start: Floats, pose: Floats, finest: int) -> _Descent:
+        """Moves `pose`. Where a map is too thin for small cells, as one scan is, larger ones must do."""
+        grid, before, H = min(stage.grid, finest), pose.copy(), np.zeros((6, 6))
+        used = math.ceil(len(points) / stage.stride)
+        steps, rested, weights, met = descend(
+            points, stage.stride, start, pose, self._map.grids[grid].cells(), stage.steepness, stage.steps,
+            (stage.enough, stage.enough_turn), self._hold, H,
+        )  # fmt: skip
+        if met < self._params.least_overlap * used and grid > 0:
+            pose[:] = before
+            return self._descend(points, stage, start, pose, grid - 1)
+        return _Descent(steps=steps, rested=rested, score=weights / used, overlap=met / used, grid=grid, H=H)
 
     def _unknown(self, guess: SE3, reason: str, steps: int = 0) -> Registration:
         covariance = covariance_of(np.zeros((6, 6)), self._hold, self._params.uncertainty)

@@ -32,7 +32,7 @@ def newton_equations(
         x, y, z = r[0] + t[0], r[1] + t[1], r[2] + t[2]
         if abs(x) > reach or abs(y) > reach or abs(z) > reach:
             continue
-        i, j, k = int(math.floor(x / size)), int(math.floor(y / size)), int(math.floor(z / size))
+        i, j, k = math.floor(x / size), math.floor(y / size), math.floor(z / size)
         best = 0.0
         for beside in range(7):
             ii, jj, kk = i + _BESIDE[beside, 0], j + _BESIDE[beside, 1], k + _BESIDE[beside, 2]

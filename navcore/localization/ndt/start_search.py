@@ -1,4 +1,4 @@
-"""Where to start: the guess may be half a metre and ten degrees off, which is further than a descent finds its way."""
+"""Where to start: half a metre and ten degrees off, a descent does not find its way."""
 
 from __future__ import annotations
 

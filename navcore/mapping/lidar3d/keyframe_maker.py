@@ -26,8 +26,8 @@ from navcore.messages.cloud import LidarCloud, unpacked
 
 Floats = NDArray[np.float64]
 _NS = 1e-9
-# From the begin of a turn at 5 Hz to its end, and how finely the robot's motion over it is told, ns.
-_LONGEST_TURN_NS, _KNOT_NS = 210_000_000, 15_000_000
+# How finely the robot's motion over a turn is told, ns.
+_KNOT_NS = 25_000_000
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -134,10 +134,14 @@ class KeyframeMaker:
         cloud = unpacked(message)
         away = np.einsum("ij,ij->i", cloud.points, cloud.points)
         kept = cloud.where((away >= self._params.nearest**2) & (away <= self._params.farthest**2))
-        stamps = range(message.stamp_ns - _LONGEST_TURN_NS, message.stamp_ns + 1, _KNOT_NS)
-        track = MotionTrack.of_poses(stamps, [self._motion.step(stamps[0], ns) for ns in stamps])
-        still = self._deskew.process(kept, message.stamp_ns, track).cloud
+        still = self._deskew.process(kept, message.stamp_ns, self._track(message.stamp_ns, kept.times)).cloud
         return None if still is None else (self._T_base_lidar.apply(still.points), still)
+
+    def _track(self, stamp_ns: int, times: Floats) -> MotionTrack:
+        """Over the turn that ends then."""
+        turn_ns = round(-float(times.min(initial=0.0)) / _NS)
+        stamps = [stamp_ns - n * _KNOT_NS for n in range(turn_ns // _KNOT_NS + 1, -1, -1)]
+        return MotionTrack.of_poses(stamps, [self._motion.step(stamps[0], ns) for ns in stamps])
 
     def _placed(self, stamp_ns: int, points: Floats) -> Tracked:
         scan = voxel_means(points, self._params.scan_voxel)

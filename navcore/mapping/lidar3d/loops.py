@@ -31,7 +31,7 @@ class LoopParams:
         driven: with so much way between, m; visits of one place are apart by as much as well.
         every: so-manieth keyframe is looked at.
         around: keyframes before and after the old one that make the map on which the new one is laid.
-        voxel: of the new one, m. ndt, matcher: map and match.
+        map_voxel: to which each of them is thinned, m; voxel: the new one. ndt, matcher: map and match.
         least_score: share of the drive's own mean score, 0 to 1. least_overlap: 0 to 1.
         most_std: of the match in its weakest direction, m. most_off: further from where the graph has it, m, plus
             `drift` of the way between.
@@ -43,6 +43,7 @@ class LoopParams:
     driven: float = 25.0
     every: int = 2
     around: int = 8
+    map_voxel: float = 0.2
     voxel: float = 0.3
     ndt: NdtMapParams = field(default_factory=NdtMapParams)
     matcher: NdtMatcherParams = field(default_factory=NdtMatcherParams)
@@ -88,7 +89,7 @@ class LoopFinder:
         self._params, self._score = params, score
         # Those of two visits at a time stay in memory, however long the drive.
         self._points: Callable[[int], Floats] = lru_cache(maxsize=4 * params.around + 8)(
-            lambda i: keyframes[i].points.astype(np.float64)
+            lambda i: voxel_means(keyframes[i].points.astype(np.float64), params.map_voxel)
         )
 
     def find(self, poses: Sequence[SE3], driven: Sequence[float]) -> Iterator[tuple[float, list[Loop]]]:
@@ -118,9 +119,9 @@ class LoopFinder:
 
     def _map_about(self, i: int, poses: Sequence[SE3]) -> NdtMap:
         """In keyframe `i`."""
-        local, T_i_map = NdtMap(self._params.ndt), poses[i].inverse()
-        for k in range(max(0, i - self._params.around), min(len(poses), i + self._params.around + 1)):
-            local.add((T_i_map @ poses[k]).apply(self._points(k)))
+        local, T_i_map, reach = NdtMap(self._params.ndt), poses[i].inverse(), self._params.around
+        about = range(max(0, i - reach), min(len(poses), i + reach + 1))
+        local.add(np.concatenate([(T_i_map @ poses[k]).apply(self._points(k)) for k in about]))
         return local
 
     def _why_not(self, found: Registration, off: float, way: float) -> str:

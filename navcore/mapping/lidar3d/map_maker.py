@@ -28,6 +28,8 @@ Tell = Callable[[float, str], None]
 # How the work divides: keyframes, loops, the map.
 _KEYFRAMES, _LOOPS = 0.75, 0.92
 _HECTARE = 10_000.0
+# Keyframes that are drawn together: a cell's Gaussian is made once for all of them.
+_AT_ONCE = 20
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -140,11 +142,15 @@ class MapMaker:
     def _map(self, solution: Solution, place: Georeference) -> tuple[NdtMap, PointCloud]:
         datum = self._drive.datum if place.T_map_odom is not None else None
         ndt, cloud = NdtMap(self._params.ndt, datum=datum), VoxelCloud(self._params.cloud_voxel)
-        for i, keyframe in enumerate(self._work):
-            points = solution.poses[i].apply(keyframe.points.astype(np.float64))
-            ndt.add(points)
-            cloud.add(points, keyframe.intensities)
-            self._tell(_LOOPS + (1.0 - _LOOPS) * i / len(self._work), "Drawing the map")
+        for begin in range(0, len(self._work), _AT_ONCE):
+            drawn = [
+                (solution.poses[begin + n].apply(k.points.astype(np.float64)), k.intensities)
+                for n, k in enumerate(self._work[begin : begin + _AT_ONCE])
+            ]
+            ndt.add(np.concatenate([points for points, _ in drawn]))
+            for points, intensities in drawn:
+                cloud.add(points, intensities)
+            self._tell(_LOOPS + (1.0 - _LOOPS) * begin / len(self._work), "Drawing the map")
         bare = PointCloud.of(cloud.points)
         return ndt, replace(bare, intensities=cloud.intensities)
 

@@ -46,7 +46,7 @@ class ScanTrackerParams:
     keyframes: int = 20
     least_keyframes: int = 2
     voxel: float = 0.2
-    ndt: NdtMapParams = field(default_factory=NdtMapParams)
+    ndt: NdtMapParams = NdtMapParams(sizes=(1.0, 0.5))
     matcher: NdtMatcherParams = field(default_factory=tracking_matcher)
     most_jump: float = 0.3
     most_turn: float = math.radians(4.0)

@@ -17,6 +17,7 @@ Floats = NDArray[np.float64]
 # Coordinates further from zero than this are those of a country's grid, not of a sensor or a farm, m.
 FAR = 10_000.0
 _WHOLE = 100.0
+_BEYOND_EARTH = 1e8
 _LONGEST_TURN_S = 10.0
 
 
@@ -39,22 +40,27 @@ class FileCloud:
 
 
 def file_cloud(columns: Mapping[str, Column], source: str, *, crs: str | None = None) -> FileCloud:
-    """Columns (N,) by name, in any case: x, y, z, m, and if there are any intensity (0 to 255; the rest is cut), ring,
-    and time (s before the cloud's stamp).
+    """Columns (N,) by name, in any case: x, y, z, m, and if there are any intensity (0 to 255; the rest is cut),
+    ring, and time (s before the cloud's stamp).
 
-    Raises CloudError where x, y or z is missing; `source` is the file's name.
+    Raises CloudError where x, y or z is missing or a point is not on Earth; `source` is the file's name.
     """
     by_name = {name.lower(): column for name, column in columns.items()}
     missing = [axis for axis in "xyz" if axis not in by_name]
     if missing:
         raise CloudError(f"{source} has no field {missing[0]}; give points with fields x, y and z in metres.")
-    points = np.column_stack([np.asarray(by_name[axis], dtype=np.float64) for axis in "xyz"])
-    finite = np.isfinite(points).all(axis=1)
+    with np.errstate(invalid="ignore"):  # some NaN are the signalling kind
+        points = np.column_stack([np.asarray(by_name[axis], dtype=np.float64) for axis in "xyz"])
+    finite = np.asarray(np.isfinite(points).all(axis=1))
+    if (beyond := np.flatnonzero(finite & (np.abs(points) > _BEYOND_EARTH).any(axis=1))).size:
+        raise CloudError(f"{source}: point {beyond[0] + 1} is further away than anything on Earth; export it again.")
     points, origin = _near(points[finite])
     rest = {name: column[finite] for name, column in by_name.items()}
-    cloud = PointCloud(points=points, times=_times(rest, len(points)), intensities=_bytes(rest, ("intensity",), points),
-                       rings=_bytes(rest, ("ring", "laser_id"), points))  # fmt: skip
-    return FileCloud(cloud=cloud, origin=origin, dropped=int(len(finite) - finite.sum()), crs=crs)
+    cloud = PointCloud(
+        points=points, times=_times(rest, len(points)), intensities=_bytes(rest, ("intensity",), points),
+        rings=_bytes(rest, ("ring", "laser_id"), points),
+    )  # fmt: skip
+    return FileCloud(cloud=cloud, origin=origin, dropped=int(np.count_nonzero(~finite)), crs=crs)
 
 
 def _near(points: Floats) -> tuple[Floats, tuple[float, float, float]]:
@@ -68,7 +74,8 @@ def _near(points: Floats) -> tuple[Floats, tuple[float, float, float]]:
 def _bytes(columns: Mapping[str, Column], names: tuple[str, ...], points: Floats) -> NDArray[np.uint8]:
     for name in names:
         if name in columns:
-            values = np.nan_to_num(np.asarray(columns[name], dtype=np.float64), nan=0.0, posinf=255.0, neginf=0.0)
+            with np.errstate(invalid="ignore"):
+                values = np.nan_to_num(np.asarray(columns[name], dtype=np.float64), posinf=255.0, neginf=0.0)
             return np.rint(np.clip(values, 0.0, 255.0)).astype(np.uint8)
     return np.zeros(len(points), dtype=np.uint8)
 
@@ -77,6 +84,7 @@ def _times(columns: Mapping[str, Column], n: int) -> Floats:
     """A time column counts if it can be seconds before a stamp; clocks and counts from a start are left out."""
     if "time" not in columns or columns["time"].dtype.kind != "f":
         return np.zeros(n)
-    times = np.asarray(columns["time"], dtype=np.float64)
+    with np.errstate(invalid="ignore"):
+        times = np.asarray(columns["time"], dtype=np.float64)
     meant = np.isfinite(times).all() and bool(((times <= 0.0) & (times > -_LONGEST_TURN_S)).all())
     return times if meant else np.zeros(n)

@@ -15,6 +15,7 @@ from navcore.errors import CloudError
 from navcore.geometry.point_cloud import PointCloud
 from navcore.maps.cloud_files.file_cloud import FileCloud, file_cloud
 from navcore.maps.cloud_files.las_header import check_header
+from navcore.maps.cloud_files.laz_chunks import check_chunks
 
 _PORTION = 50_000
 # LAS keeps 16 bits of intensity, a cloud 8: 255 is 65535.
@@ -28,13 +29,23 @@ def read_laz(data: bytes, source: str) -> FileCloud:
     Raises CloudError that names `source` and the place.
     """
     check_header(data, source)
-    with _told(source), laspy.open(io.BytesIO(data), closefd=False) as reader:
-        portions = [_columns(portion) for portion in reader.chunk_iterator(_PORTION)]
-        read, promised, crs = sum(len(p["x"]) for p in portions), reader.header.point_count, _crs(reader.header)
+    with _told(source), laspy.open(io.BytesIO(data), closefd=False, laz_backend=laspy.LazBackend.Lazrs) as reader:
+        portions, promised, crs = _portions(reader, data, source), reader.header.point_count, _crs(reader.header)
+    read = sum(len(portion["x"]) for portion in portions)
     if read != promised:
         raise CloudError(f"{source} ends after point {read} of {promised} (cut off?); copy or export it again.")
-    names = portions[0] if portions else dict.fromkeys("xyz")
-    return file_cloud({n: np.concatenate([p[n] for p in portions] or [np.empty(0)]) for n in names}, source, crs=crs)
+    if not portions:
+        return file_cloud(dict.fromkeys("xyz", np.empty(0)), source, crs=crs)
+    return file_cloud({n: np.concatenate([p[n] for p in portions]) for n in portions[0]}, source, crs=crs)
+
+
+def _portions(reader: laspy.LasReader, data: bytes, source: str) -> list[dict[str, NDArray[Any]]]:
+    """Columns of the points, some thousands at a time: room is made for what was read, not for what is claimed."""
+    if reader.header.point_count == 0:
+        return []
+    if reader.header.are_points_compressed:
+        check_chunks(data, reader.header.offset_to_point_data, _packing(reader.header), source)
+    return [_columns(portion) for portion in reader.chunk_iterator(_PORTION)]
 
 
 def laz_bytes(
@@ -57,6 +68,12 @@ def laz_bytes(
     written = io.BytesIO()
     las.write(written, do_compress=True, laz_backend=laspy.LazBackend.Lazrs)
     return written.getvalue()
+
+
+def _packing(header: laspy.LasHeader) -> bytes:
+    """The record that tells how the points are packed; empty where there is none."""
+    records = header.vlrs.get("LasZipVlr")
+    return bytes(records[0].record_data) if records else b""
 
 
 def _columns(points: Any) -> dict[str, NDArray[Any]]:
@@ -91,8 +108,9 @@ def _crs(header: laspy.LasHeader) -> str | None:
 def _told(source: str) -> Iterator[None]:
     """Whatever the libraries say of a broken file becomes a sentence; their panics are no ordinary exceptions."""
     try:
-        yield
-    except (KeyboardInterrupt, SystemExit, GeneratorExit):
+        with np.errstate(all="ignore"):
+            yield
+    except (CloudError, KeyboardInterrupt, SystemExit, GeneratorExit):
         raise
     except BaseException as error:
         why = (str(error).splitlines() or [type(error).__name__])[0][:120]

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from navcore.maps.ndt.cell_kernels import GAUSSIAN, SUMS, Floats, Singles, add_points, refresh
 from navcore.geometry.voxel_table import HALF, Keys, Slots, table_of
+from navcore.maps.ndt.cell_kernels import GAUSSIAN, SUMS, Floats, Singles, add_points, refresh
 
 # Keys and slots of the hash table, Gaussians (M, 10), size, m: what `voxel_table.find` and kernels take.
 Cells = tuple[Keys, Slots, Singles, float]

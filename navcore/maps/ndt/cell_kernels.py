@@ -34,9 +34,9 @@ def add_points(
     room = min(len(cell_keys), len(keys) // 2)
     last_key, slot = FREE, FREE
     for n in range(len(points)):
-        i = int(math.floor(points[n, 0] / size))
-        j = int(math.floor(points[n, 1] / size))
-        k = int(math.floor(points[n, 2] / size))
+        i = math.floor(points[n, 0] / size)
+        j = math.floor(points[n, 1] / size)
+        k = math.floor(points[n, 2] / size)
         key = key_of(i, j, k)
         if key != last_key:
             slot = find(keys, slots, key)

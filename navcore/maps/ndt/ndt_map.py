@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from navcore.errors import NdtMapError
-from navcore.maps.ndt.cell_grid import CellGrid, CellParams
 from navcore.geometry.voxel_table import HALF
+from navcore.maps.ndt.cell_grid import CellGrid, CellParams
 from navcore.maps.site_map import Datum
 
 Floats = NDArray[np.float64]
