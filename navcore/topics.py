@@ -119,6 +119,10 @@ CAMERA_VIEW = Topic(
 LIDAR_SCAN = Topic(
     name="lidar/scan", type=m.LidarScan, publisher="row_worker", rate_hz=10, max_age_s=0.35, logged=True, shown=False
 )
+LIDAR3D_CLOUD = Topic(
+    name="lidar3d/cloud", type=m.LidarCloud, publisher="scan_worker", rate_hz=10, max_age_s=0.35, logged=True,
+    shown=False,
+)  # fmt: skip
 SIM_SCAN = Topic(
     name="sim/scan", type=m.LidarScan, publisher="world", rate_hz=10, max_age_s=0.35, logged=False, shown=False
 )
@@ -145,6 +149,6 @@ TOPICS: dict[str, Topic] = {
     for t in (
         NAV_INPUTS, NAV_DECISION, NAV_STATUS, NAV_SWITCH, NAV_PLAN, CAMERA_REQUEST, GNSS_FIX, CHASSIS_STATE,
         IMU_SAMPLE, ROW_OBSERVATION, CAMERA_VIEW, SIM_TRUTH, SIM_FARM, SIM_CONTACT, SIM_SCAN, LIDAR_SCAN,
-        RECORDER_STATUS, NAV_PRELUDE,
+        LIDAR3D_CLOUD, RECORDER_STATUS, NAV_PRELUDE,
     )
 }  # fmt: skip

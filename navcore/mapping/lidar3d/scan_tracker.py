@@ -37,8 +37,9 @@ class ScanTrackerParams:
     """Parameters of `ScanTracker`.
 
     Attributes:
-        keyframes: that make the local map, at least 1. least_keyframes: before that, odometry lays scans; 2 at least,
-            as the rings that one place sees on the ground move with the robot. voxel: to which each is thinned for it, m.
+        keyframes: that make the local map, at least 1. voxel: to which each is thinned for it, m.
+        least_keyframes: before that, odometry lays the scans; 2 at least, as the rings that one place sees on the
+            ground move with the robot.
         ndt: its cells. matcher: of a scan on it.
         most_jump, most_turn: a match further from odometry is not believed, m and rad, above 0.
     """
