@@ -27,10 +27,15 @@ def make_map(
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="One JSON object.")] = False,
     progress_json: Annotated[bool, typer.Option(help="Progress as a line of JSON each, for programs.")] = False,
+    gently: Annotated[bool, typer.Option(help="Only with what other programs leave of the processor.")] = False,
 ) -> None:
     """Make one NDT map and one cloud of a run's 3D LiDAR. Killed, it goes on where it was when called again."""
+    import os
+
     from navcore.errors import RowpilotError
 
+    if gently:
+        os.nice(19)
     folder = out or log.with_name(f"{log.stem}-map")
     try:
         made, written = _make(log, folder, _told_as_json if progress_json else _told())
@@ -90,7 +95,8 @@ def _words(r: MapReport, written: list[Path]) -> str:
     loops = "" if r.loop_rms is None else f" and fit within {100 * r.loop_rms:.1f} cm (RMS)"
     refused = ", ".join(f"{n} {why}" for why, n in r.loops_refused.items())
     lines = [
-        f"{r.drive}: {r.driven:.0f} m, {r.turns} turns, {r.keyframes} keyframes, {r.hectares:.2f} ha, {georeferenced}",
+        f"{r.drive}: {r.driven:.0f} m, {r.turns} turns, {r.keyframes} keyframes, {r.hectares:.2f} ha",
+        f"The map is {georeferenced}",
         f"RTK at {r.rtk_share:.0%} of the keyframes{fixes}; {r.fixes_doubted} fixes not believed",
         f"Passed twice: {r.loops_taken} loops believed{loops}; refused: {refused or 'none'}",
         f"Map: {r.cells} cells, {r.map_bytes / 1e6:.1f} MB in memory; cloud: {r.points} points",

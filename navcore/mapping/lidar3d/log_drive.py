@@ -6,9 +6,6 @@ import json
 from collections.abc import Iterator
 from pathlib import Path
 
-from mcap.exceptions import McapError
-from mcap.reader import make_reader
-
 from navcore.config import RobotConfig, config_from_tree
 from navcore.errors import LogError
 from navcore.geometry.lidar_mount import LidarMount
@@ -16,7 +13,8 @@ from navcore.mapping.lidar3d.drive import Drive, Rig, Sensed
 from navcore.maps.site_map import Datum
 from navcore.messages import NavInputs, NavPrelude
 from navcore.messages.cloud import LidarCloud
-from navcore.recording.reader import TORN, read_farm, read_log, read_metadata, read_prelude
+from navcore.recording.message_count import message_count
+from navcore.recording.reader import read_farm, read_log, read_metadata, read_prelude
 from navcore.topics import LIDAR3D_CLOUD, NAV_INPUTS
 from navcore.transport.codec import decode
 
@@ -32,7 +30,8 @@ def log_drive(log: Path, mount: LidarMount | None = None) -> Drive:
     vehicle = config.vehicle_params()
     antenna = (vehicle.antenna_x, vehicle.antenna_y, vehicle.antenna_height)
     rig = Rig(lidar=mount or config.lidar3d.mount, antenna=antenna)
-    return Drive(name=name, rig=rig, datum=_datum(log, prelude), sensed=lambda: _sensed(log), clouds=_clouds(log))
+    clouds = message_count(log, LIDAR3D_CLOUD.name)
+    return Drive(name=name, rig=rig, datum=_datum(log, prelude), sensed=lambda: _sensed(log), clouds=clouds)
 
 
 def _sensed(log: Path) -> Iterator[Sensed]:
@@ -62,16 +61,3 @@ def _datum(log: Path, prelude: NavPrelude | None) -> Datum | None:
             return None
     lat, lon, height = prelude.datum
     return Datum(lat_deg=lat, lon_deg=lon, height_m=height)
-
-
-def _clouds(log: Path) -> int | None:
-    """By the index at the end of the file; None where its recorder was killed before it wrote one."""
-    try:
-        with log.open("rb") as file:
-            summary = make_reader(file).get_summary()
-    except (OSError, McapError, *TORN):
-        return None
-    if summary is None or summary.statistics is None:
-        return None
-    counts = summary.statistics.channel_message_counts
-    return sum(counts.get(c.id, 0) for c in summary.channels.values() if c.topic == LIDAR3D_CLOUD.name)

@@ -32,22 +32,23 @@ Floats = NDArray[np.float64]
 DATUM = Datum(lat_deg=36.6, lon_deg=119.1, height_m=30.0)
 RIG = Rig(lidar=LidarMount(x=0.2, y=0.0, z=0.6), antenna=(0.1, 0.0, 1.2))
 TICK_NS, START_NS = 20_000_000, 5_000_000_000
-TICKS_A_SCAN, TICKS_A_FIX = 10, 10
+TICKS_A_SCAN, TICKS_A_FIX = 12, 10
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DriveCase:
-    """A drive of `ticks` at 50 Hz.
+    """A drive at 50 Hz.
 
     Attributes:
-        length: of a row, m. gnss: whether a receiver tells, and from which tick to which it lies by 2 m.
-        wheel_scale: what the wheels over-read.
+        length: of a row, m. gnss: whether a receiver tells; lies: from which tick to which it is wrong by 2 m.
+        wheel_scale: what the wheels over-read. scans: whether there is a LiDAR.
     """
 
-    length: float = 14.0
+    length: float = 12.0
     gnss: bool = True
     lies: tuple[int, int] = (0, 0)
     wheel_scale: float = 1.03
+    scans: bool = True
     seed: int = 1
 
 
@@ -94,7 +95,7 @@ def sensed(case: DriveCase) -> Iterator[Sensed]:
         now_ns = START_NS + k * TICK_NS
         step = T.inverse() @ truth[min(k + 1, len(truth) - 1)]
         yield _inputs(case, k, now_ns, T, step, frame, rng)
-        if k % TICKS_A_SCAN == 0 and k:
+        if k % TICKS_A_SCAN == 0 and k and case.scans:
             yield packed(now_ns, _scan(T, case, rng))
 
 
@@ -139,8 +140,8 @@ def _fix(case: DriveCase, k: int, now_ns: int, T: SE3, frame: EnuFrame, rng: np.
 def _scan(T: SE3, case: DriveCase, rng: np.random.Generator) -> PointCloud:
     T_map_lidar = T @ RIG.T_base_lidar()
     near = things(case.length)
-    near = near[np.hypot(*(near[:, :2] - T_map_lidar.t[:2]).T) < 14.0]
-    seen = near[rng.random(len(near)) < 0.6]
+    near = near[np.hypot(*(near[:, :2] - T_map_lidar.t[:2]).T) < 13.0]
+    seen = near[rng.random(len(near)) < 0.5]
     points = T_map_lidar.inverse().apply(seen) + 0.01 * rng.standard_normal(seen.shape)
     return PointCloud.of(points)
 

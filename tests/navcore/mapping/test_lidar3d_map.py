@@ -84,10 +84,10 @@ def test_a_drive_cut_anywhere_and_taken_up_again_gives_the_same_map(
 
 def test_what_is_written_is_what_was_made(usual: tuple[MadeMap, list[int]], tmp_path: Path) -> None:
     paths = write_map(tmp_path / "out", usual[0])
-    assert [path.name for path in paths] == ["map.ndt", "cloud.laz", "cloud.pcd", "report.json"]
+    assert [file.name for file in paths] == ["map.ndt", "cloud.laz", "cloud.pcd", "report.json"]
     assert ndt_map_bytes(read_ndt_map(paths[0])) == ndt_map_bytes(usual[0].ndt)
-    for path in paths[1:3]:
-        read = read_cloud(path)
+    for file in paths[1:3]:
+        read = read_cloud(file)
         assert np.array(read.origin) + read.cloud.points == pytest.approx(usual[0].cloud.points, abs=0.001)  # m
 
 
