@@ -85,11 +85,11 @@ class Map3dJobs:
                 process.kill()
 
     def _follow(self, run_id: str, process: subprocess.Popen[bytes]) -> None:
-        assert process.stderr is not None
         said = ""
-        for line in process.stderr:
-            said = self._heard(run_id, line.decode(errors="replace").strip()) or said
-        code = process.wait()
+        with process:
+            for line in process.stderr or ():
+                said = self._heard(run_id, line.decode(errors="replace").strip()) or said
+        code = process.returncode
         if code not in (0, BAD_INPUT) and not self._stopped:
             log.error("mapping of run %s ended with %d: %s", run_id, code, said)
         with self._lock:
