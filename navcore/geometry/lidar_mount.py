@@ -1,4 +1,4 @@
-"""Where a 2D LiDAR sits on the robot: its rays' ends in the robot's frame."""
+"""Where a LiDAR sits on the robot, and a 2D one's rays' ends in the robot's frame."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LidarMount:
-    """Mount of `lidar2d` in `base_link` (whose origin lies on the ground under the robot's centre).
+    """Mount of `lidar2d` or `lidar3d` in `base_link` (whose origin lies on the ground under the robot's centre).
 
     Attributes:
         x, y, z: the sensor's centre, m.
@@ -41,3 +41,8 @@ class LidarMount:
 def robot_lidar() -> LidarMount:
     """Paper B's: 0.25 m above the middle of the body, in front of what it carries."""
     return LidarMount(x=0.30, y=0.0, z=0.55)
+
+
+def robot_lidar3d() -> LidarMount:
+    """Paper C's: (0.2, 0, 0.25) m on a Scout 2.0, read as above its top plate, 0.34 m high."""
+    return LidarMount(x=0.20, y=0.0, z=0.59)
