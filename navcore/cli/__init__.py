@@ -10,6 +10,7 @@ from navcore.cli import (
     decode_rplidar,
     evaluate,
     export,
+    map_run,
     odometry,
     register,
     replay,
@@ -44,6 +45,7 @@ report.register(app)
 trunks.register(app)
 register.register(app)
 odometry.register(app)
+map_run.register(app)
 
 
 @app.callback()

@@ -24,7 +24,7 @@ from navcore.runtime.clouds import Clouds, RealClouds, SimulatedClouds, Simulate
 from navcore.runtime.map_file import MapFile, map_beside
 from navcore.runtime.simulation import SimulationParams
 from navcore.runtime.site_file import read_site
-from navcore.topics import LIDAR_CLOUD, MAP_MATCH, NAV_ODOMETRY
+from navcore.topics import LIDAR3D_CLOUD, MAP_MATCH, NAV_ODOMETRY
 from navcore.transport.codec import decode
 from navcore.transport.endpoints import Endpoints
 from navcore.transport.pubsub import Publisher, Subscriber
@@ -51,7 +51,7 @@ class ScanWorker:
         while (received := self._bus.receive(0)) is not None:
             self._matcher.hear(decode(Odometry, received.payload))
         for turn in self._clouds.take():
-            self._publisher.publish(LIDAR_CLOUD.name, packed(turn.stamp_ns, turn.cloud))
+            self._publisher.publish(LIDAR3D_CLOUD.name, packed(turn.stamp_ns, turn.cloud))
             match = self._match(turn)
             latency_ms = (time.monotonic_ns() - turn.stamp_ns) * 1e-6
             self._publisher.publish(MAP_MATCH.name, replace(match, latency_ms=latency_ms))
