@@ -5,7 +5,16 @@ from __future__ import annotations
 from pydantic import ConfigDict, Field
 
 from backend.schemas.base import Received, Sent
-from navcore.messages import CameraView, GnssFix, MissionPlan, ModeSwitch, NavStatus, RecorderStatus
+from navcore.messages import (
+    CalibrationInUse,
+    CalibrationView,
+    CameraView,
+    GnssFix,
+    MissionPlan,
+    ModeSwitch,
+    NavStatus,
+    RecorderStatus,
+)
 
 
 class Heartbeat(Received):
@@ -25,3 +34,5 @@ class LiveTopics(Sent):
     gnss_fix: GnssFix | None = Field(alias="gnss/fix")
     camera_view: CameraView | None = Field(alias="camera/view")
     recorder_status: RecorderStatus | None = Field(alias="recorder/status")
+    calibration_view: CalibrationView | None = Field(alias="calibration/view")
+    calibration_in_use: CalibrationInUse | None = Field(alias="calibration/in_use")
