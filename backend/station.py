@@ -9,6 +9,9 @@ from datetime import timedelta
 
 from backend import uploads
 from backend.audit import AuditBook
+from backend.calibration_versions import CalibrationVersions
+from backend.calibrator.client import Calibrator
+from backend.calibrator.keeper import CalibratorKeeper
 from backend.database import Database
 from backend.exports import ExportStore
 from backend.heartbeat import HeartbeatTeller
@@ -62,6 +65,8 @@ class Station:
     watcher: RunWatcher
     heartbeat: HeartbeatTeller
     scene: SceneProcess
+    calibrator: Calibrator
+    calibrations: CalibrationVersions
     closers: tuple[Callable[[], None], ...]
 
     def start(self, loop: asyncio.AbstractEventLoop) -> None:
@@ -70,6 +75,7 @@ class Station:
         self.watcher.start()
         self.heartbeat.start()
         self.scene.start()
+        self.calibrator.start()
 
     def close(self) -> None:
         """Let go of threads, processes, sockets and the database."""
@@ -96,6 +102,7 @@ def open_station(settings: Settings) -> Station:
     watcher = RunWatcher(endpoints, runs, hub.put, RunEnd(recorder, mapper.map_ended).finish)
     heartbeat = HeartbeatTeller(told_alive, lambda: hub.operators(settings.operator_timeout_s))
     scene = SceneProcess(settings)
+    calibrator = Calibrator(settings, endpoints, CalibratorKeeper(settings), robot)
     clients = (navigator, told_to_stop, told_alive, recorder, supervisor, database)
     return Station(
         settings=settings,
@@ -119,7 +126,9 @@ def open_station(settings: Settings) -> Station:
         watcher=watcher,
         heartbeat=heartbeat,
         scene=scene,
-        closers=tuple(part.close for part in (scene, heartbeat, watcher, hub, jobs, stopper, *clients)),
+        calibrator=calibrator,
+        calibrations=CalibrationVersions(settings, robot),
+        closers=tuple(part.close for part in (calibrator, scene, heartbeat, watcher, hub, jobs, stopper, *clients)),
     )
 
 

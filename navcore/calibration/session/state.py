@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from navcore.calibration.board import Board, BoardSighting
 from navcore.calibration.board_run import PlainScan
+from navcore.calibration.calibration_file import CalibrationVersion
 from navcore.calibration.found_values import FoundValue
 from navcore.messages import BoardOnFloor, CalibrationJob, CameraName
 
@@ -17,7 +18,12 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SessionSetup:
-    """What was asked for. `rehearsal`: with drawn pictures of a simulated board; nothing of it is for the robot."""
+    """What was asked for.
+
+    Attributes:
+        robot: its name. rehearsal: with drawn pictures of a simulated board; nothing of it is for the robot.
+        camera_version: of a LiDAR's calibration, the lens that it goes by; None for a camera's.
+    """
 
     id: str
     job: CalibrationJob
@@ -26,6 +32,7 @@ class SessionSetup:
     robot: str
     began_utc: str
     rehearsal: bool = False
+    camera_version: CalibrationVersion | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
