@@ -21,7 +21,7 @@ from navcore.messages import CalibrationJob
 from navcore.transport.endpoints import Endpoints
 from navcore.transport.request import Requester
 
-ASK_MS, CHANGE_MS = 1500, 10_000
+ASK_MS, CHANGE_MS = 3000, 10_000
 NONE = "No calibration is under way. Begin one on the Setup page."
 STARTING = "The calibration is starting …"
 DIED = "The calibration broke off and is starting again. Every picture that was taken is kept."
@@ -53,7 +53,8 @@ class Calibrator:
                 self._folder.begin(setup)
             except CalibrationError as error:
                 raise ConflictError(str(error)) from error
-        return self.document()
+        self._keeper.want(rehearsal=start.rehearsal)
+        return CalibrationDocument(setup=setup, state=None, message=STARTING)
 
     def document(self) -> CalibrationDocument:
         """How it stands; looking at it keeps its process running."""

@@ -10,6 +10,9 @@ from navcore.calibration.session.job import Fitted, Job
 from navcore.calibration.session.state import Taken
 from navcore.errors import CalibrationError, InputError
 
+CALM_NS = 2_000_000_000
+MOST_NEWER = 5  # poses
+
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Outcome:
@@ -21,18 +24,27 @@ class Outcome:
 
 
 class Fitter:
-    """One fit at a time; newer poses are taken when it has ended."""
+    """One fit at a time, of poses that have not changed for a while: while they come in quickly, of every few."""
 
     def __init__(self, job: Job) -> None:
         self._job = job
         self._pool = ThreadPoolExecutor(max_workers=1, thread_name_prefix="fit")
         self._future: Future[Outcome] | None = None
+        self._revision, self._changed_ns = 0, 0
         self.outcome = Outcome(revision=-1)
 
-    def follow(self, revision: int, poses: Sequence[Taken]) -> bool:
+    def hurry(self) -> None:
+        """Somebody waits for the newest result."""
+        self._changed_ns = 0
+
+    def follow(self, revision: int, poses: Sequence[Taken], now_ns: int) -> bool:
         """Take in what has ended, and begin anew if there is something newer. True if the outcome is another one."""
         changed = self._take_in()
-        if self._future is None and self.outcome.revision != revision:
+        if revision != self._revision:
+            self._revision, self._changed_ns = revision, now_ns
+        newer = revision - self.outcome.revision
+        calm = now_ns - self._changed_ns > CALM_NS
+        if self._future is None and newer and (calm or newer >= MOST_NEWER):
             self._future = self._pool.submit(fit, self._job, revision, tuple(poses))
         return changed
 

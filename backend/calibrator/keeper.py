@@ -53,8 +53,10 @@ class CalibratorKeeper(Worker):
 
     def _look_after(self, now_s: float) -> None:
         if self._child is not None and self._child.poll() is not None:
+            finished = self._child.returncode == 0  # there was nothing to calibrate any more
             self._child = None
-            self.deaths += 1
+            self._wanted_s = float("-inf") if finished else self._wanted_s
+            self.deaths += not finished
             self._pause_s = PAUSE_S if now_s - self._started_s > CALM_S else min(2 * self._pause_s, LONGEST_PAUSE_S)
             self._not_before_s = now_s + self._pause_s
         wanted = now_s - self._wanted_s <= IDLE_S

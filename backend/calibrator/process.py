@@ -26,7 +26,7 @@ from navcore.transport.endpoints import Endpoints
 from navcore.transport.pubsub import Publisher, Subscriber
 from navcore.transport.request import Replier
 
-NICENESS = 10
+NICENESS = 3
 WAIT_MS = 30
 TIED = "navcore.runtime.tied"
 BOARD = "navcore.runtime.board_process"  # the simulated board; by its name, for the station knows no simulator

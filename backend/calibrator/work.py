@@ -69,7 +69,7 @@ class CalibratorWork:
             self._heard_ns = now_ns - SILENT_NS + REPEAT_NS
             problem = DRAWING if self._setup.rehearsal else NOBODY
             self._see(RawPicture(stamp_ns=now_ns, camera=self._setup.camera, problem=problem), b"", publisher)
-        if self._fitter.follow(self._session.revision, self._session.poses):
+        if self._fitter.follow(self._session.revision, self._session.poses, now_ns):
             self._results += 1
 
     def answer(self, request: CalibratorRequest) -> CalibratorReply:
@@ -111,6 +111,8 @@ class CalibratorWork:
             self._session.ask_to_take()
         elif request.kind is CalibratorRequestKind.KEEP:
             self._session.keep(request.name, kept=request.kept)
+            self._fitter.follow(self._session.revision, self._session.poses, time.monotonic_ns())
+            self._fitter.hurry()
         elif request.kind is CalibratorRequestKind.ACCEPT:
             return self._accept(request)
         return ""

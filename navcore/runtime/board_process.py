@@ -21,8 +21,8 @@ from navcore.topics import SIM_BOARD, SIM_BOARD_SCAN
 from navcore.transport.endpoints import Endpoints
 from navcore.transport.pubsub import Publisher
 
-FRAME_NS = 100_000_000
-NICENESS = 5
+FRAME_NS = 200_000_000
+NICENESS = 3
 
 
 def main() -> None:

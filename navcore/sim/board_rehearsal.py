@@ -39,9 +39,9 @@ class BoardRehearsalParams:
         height: how far the board's middle is from the LiDAR's plane at most, m.
     """
 
-    poses: int = 26
+    poses: int = 32
     seed: int = 1
-    held: int = 13
+    held: int = 8
     moving: int = 1
     height: float = 0.06
 
@@ -74,7 +74,7 @@ class BoardRehearsal:
         self._held: list[Floats] = []
 
     def frames(self) -> Iterator[RehearsalFrame]:
-        """For ever, ten a second: each pose is gone to and held, and at last the board is put down."""
+        """For ever, five a second: each pose is gone to and held, and at last the board is put down."""
         last = away()
         for _ in range(self._params.poses):
             pose = self._next_pose()

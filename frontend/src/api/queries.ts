@@ -65,6 +65,7 @@ export const calibrationQuery = queryOptions({
 export const versionsQuery = queryOptions({
   queryKey: ["calibration-versions"],
   queryFn: ({ signal }) => get<VersionDocument[]>("/api/calibration/versions", signal),
+  refetchInterval: 10_000, // a command may have put one there
 });
 
 export const runsQuery = queryOptions({

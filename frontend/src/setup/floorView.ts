@@ -43,16 +43,16 @@ export function paintFloor(ctx: CanvasRenderingContext2D, floor: Floor, ratio: n
 }
 
 function paintBoard(ctx: CanvasRenderingContext2D, frame: FloorFrame, { ends, rays }: BoardOnFloor, ratio: number): void {
+  points(ctx, frame, rays, FLOOR_COLORS.rays, 1.5 * ratio);
   const [a, b] = ends;
   if (a && b) {
     ctx.beginPath();
     ctx.moveTo(...frame.at(a[0], a[1]));
     ctx.lineTo(...frame.at(b[0], b[1]));
     ctx.strokeStyle = FLOOR_COLORS.board;
-    ctx.lineWidth = 3 * ratio;
+    ctx.lineWidth = 2 * ratio;
     ctx.stroke();
   }
-  points(ctx, frame, rays, FLOOR_COLORS.rays, 1.5 * ratio);
 }
 
 function points(ctx: CanvasRenderingContext2D, { at }: FloorFrame, places: readonly (readonly number[])[], color: string, half: number): void {
