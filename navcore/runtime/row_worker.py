@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import argparse
 import signal
+import sys
 import time
 from collections import deque
 from dataclasses import replace
@@ -17,6 +18,7 @@ import cv2
 import msgspec
 
 from navcore.config import RobotConfig, load_config
+from navcore.errors import CalibrationError
 from navcore.messages import CalibrationInUse, CameraName, CameraRequest, CameraView, LidarScan
 from navcore.perception.detector import Image
 from navcore.perception.plants.scan_eye import ScanEye
@@ -164,7 +166,7 @@ def main() -> None:
     cv2.setNumThreads(1)
     config, in_use = load_config(given.config) if given.config else RobotConfig(), None
     if given.calibration is not None:
-        config, in_use = calibrated(config, given.calibration, given.robot)
+        config, in_use = _calibrated(config, given.calibration, given.robot)
     endpoints = Endpoints(given.bus)
     simulation = msgspec.json.decode(given.simulation, type=SimulationParams) if given.simulation else None
     cameras = _cameras(endpoints, given.site, simulation, config)
@@ -175,6 +177,17 @@ def main() -> None:
         ticker.wait()
         worker.look()
     worker.close()
+
+
+def _calibrated(config: RobotConfig, folder: Path, robot: str) -> tuple[RobotConfig, CalibrationInUse | None]:
+    """Tells which calibrations it goes by; ends with the reason where one cannot be used."""
+    try:
+        config, in_use = calibrated(config, folder, robot)
+    except CalibrationError as error:
+        raise SystemExit(f"The calibration in use cannot be used: {error} Choose another one on Setup.") from error
+    if in_use is not None:
+        print(f"cameras see by calibrations: {in_use}", file=sys.stderr, flush=True)
+    return config, in_use
 
 
 def _cameras(endpoints: Endpoints, site: Path, params: SimulationParams | None, config: RobotConfig) -> Cameras:
