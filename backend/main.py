@@ -13,7 +13,20 @@ from backend import errors, permissions
 from backend.body_limits import BodyLimit
 from backend.gate import Gate
 from backend.headers import SecurityHeaders
-from backend.routes import frontend, live, maps3d, missions, orthophotos, robot, runs, scene, session, sites, trunks
+from backend.routes import (
+    calibration,
+    frontend,
+    live,
+    maps3d,
+    missions,
+    orthophotos,
+    robot,
+    runs,
+    scene,
+    session,
+    sites,
+    trunks,
+)
 from backend.settings import Settings
 from backend.station import Station, open_station
 
@@ -27,6 +40,7 @@ ROOMS = (
     robot,
     runs,
     live,
+    calibration,
     scene,
     frontend,
 )  # the last one takes what is left

@@ -68,14 +68,18 @@ class RobotView:
             reasons.append(f"The robot is set up for another farm. Place it on {site_name} first.")
         return reasons
 
+    def require_standing(self, purpose: str) -> None:
+        """Raises ConflictError while a mission is under way."""
+        status = self.status()
+        if status is not None and status.state not in STANDING:
+            raise ConflictError(f"A mission is under way. Stop it before you {purpose}.")
+
     def note_start(self) -> None:
         """A run was started: what the robot said of itself before this is out of date."""
         self._started_ns = time.monotonic_ns()
 
     def place(self, site_id: str, site: SiteMap) -> None:
         """Set the robot up for a farm; a simulated one starts again there. Raises ConflictError while it drives."""
-        status = self.status()
-        if status is not None and status.state not in STANDING:
-            raise ConflictError("A mission is under way. Stop it before you place the robot elsewhere.")
+        self.require_standing("place the robot elsewhere")
         self._supervisor.place(site_id, site)
         self._hub.forget()

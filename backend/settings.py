@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import socket
 from pathlib import Path
 from typing import Self
 
@@ -39,6 +40,7 @@ class Settings(BaseSettings):
         allowed_hosts: further host names under which browsers may call the station (Host header).
         data_dir: database, orthophotos and run logs.
         bus_dir: sockets between the processes.
+        robot: its name, which stored calibrations carry; else the computer's.
         vehicle: key of `navcore.vehicle.PROFILES`.
         simulated: the robot is the simulator.
         scene: run the 3D view.
@@ -59,6 +61,7 @@ class Settings(BaseSettings):
     allowed_hosts: tuple[str, ...] = ()
     data_dir: Path = Field(default_factory=default_data_dir)
     bus_dir: Path = Field(default_factory=default_bus_dir)
+    robot: str = Field(default_factory=socket.gethostname, min_length=1, max_length=80)
     vehicle: str = "paper_a"
     simulated: bool = True
     scene: bool = True
@@ -110,6 +113,21 @@ class Settings(BaseSettings):
     def map3d_dir(self) -> Path:
         """3D maps, `<site id>/<run id>/`."""
         return self.data_dir / "maps3d"
+
+    @property
+    def calibration_dir(self) -> Path:
+        """Versions of each camera's calibration, and which is in use."""
+        return self.data_dir / "calibration"
+
+    @property
+    def calibration_session_dir(self) -> Path:
+        """What was taken for a calibration that is not finished yet."""
+        return self.data_dir / "calibration_session"
+
+    @property
+    def rehearsal_dir(self) -> Path:
+        """Versions that were found in a rehearsal; no robot ever sees by them."""
+        return self.data_dir / "rehearsal"
 
     @property
     def cookie_name(self) -> str:

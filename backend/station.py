@@ -9,6 +9,9 @@ from datetime import timedelta
 
 from backend import uploads
 from backend.audit import AuditBook
+from backend.calibration_versions import CalibrationVersions
+from backend.calibrator.client import Calibrator
+from backend.calibrator.keeper import CalibratorKeeper
 from backend.database import Database
 from backend.exports import ExportStore
 from backend.heartbeat import HeartbeatTeller
@@ -66,6 +69,8 @@ class Station:
     watcher: RunWatcher
     heartbeat: HeartbeatTeller
     scene: SceneProcess
+    calibrator: Calibrator
+    calibrations: CalibrationVersions
     closers: tuple[Callable[[], None], ...]
 
     def start(self, loop: asyncio.AbstractEventLoop) -> None:
@@ -74,6 +79,7 @@ class Station:
         self.watcher.start()
         self.heartbeat.start()
         self.scene.start()
+        self.calibrator.start()
 
     def close(self) -> None:
         """Let go of threads, processes, sockets and the database."""
@@ -102,6 +108,7 @@ def open_station(settings: Settings) -> Station:
     scene = SceneProcess(settings)
     maps3d = Map3dStore(settings.map3d_dir)
     map3d_jobs = Map3dJobs(maps3d)
+    calibrator = Calibrator(settings, endpoints, CalibratorKeeper(settings), robot)
     clients = (navigator, told_to_stop, told_alive, recorder, supervisor, database)
     return Station(
         settings=settings,
@@ -127,7 +134,11 @@ def open_station(settings: Settings) -> Station:
         watcher=watcher,
         heartbeat=heartbeat,
         scene=scene,
-        closers=tuple(part.close for part in (scene, heartbeat, watcher, hub, map3d_jobs, jobs, stopper, *clients)),
+        calibrator=calibrator,
+        calibrations=CalibrationVersions(settings, robot),
+        closers=tuple(
+            part.close for part in (calibrator, scene, heartbeat, watcher, hub, map3d_jobs, jobs, stopper, *clients)
+        ),
     )
 
 

@@ -141,6 +141,29 @@ SIM_FARM = Topic(
 SIM_CONTACT = Topic(
     name="sim/contact", type=m.SimContact, publisher="world", rate_hz=0, max_age_s=None, logged=True, shown=False
 )
+CALIBRATION_WANTED = Topic(
+    name="calibration/wanted", type=m.RawPictureWanted, publisher="calibrator", rate_hz=5, max_age_s=1.0,
+    logged=False, shown=False,
+)  # fmt: skip
+CALIBRATION_VIEW = Topic(
+    name="calibration/view", type=m.CalibrationView, publisher="calibrator", rate_hz=10, max_age_s=1.0, logged=False,
+    shown=True, attachment="jpeg",
+)  # fmt: skip
+CALIBRATION_IN_USE = Topic(
+    name="calibration/in_use", type=m.CalibrationInUse, publisher="row_worker", rate_hz=1, max_age_s=3.0, logged=True,
+    shown=True,
+)  # fmt: skip
+CAMERA_RAW = Topic(
+    name="camera/raw", type=m.RawPicture, publisher="row_worker", rate_hz=10, max_age_s=1.0, logged=False,
+    shown=False, attachment="jpeg",
+)  # fmt: skip
+SIM_BOARD = Topic(
+    name="sim/board", type=m.RawPicture, publisher="board", rate_hz=10, max_age_s=1.0, logged=False, shown=False,
+    attachment="jpeg",
+)  # fmt: skip
+SIM_BOARD_SCAN = Topic(
+    name="sim/board_scan", type=m.LidarScan, publisher="board", rate_hz=10, max_age_s=0.35, logged=False, shown=False
+)
 
 RECORDER_STATUS = Topic(
     name="recorder/status", type=m.RecorderStatus, publisher="recorder", rate_hz=1, max_age_s=3.0, logged=False,
@@ -155,6 +178,8 @@ TOPICS: dict[str, Topic] = {
     for t in (
         NAV_INPUTS, NAV_DECISION, NAV_STATUS, NAV_SWITCH, NAV_PLAN, CAMERA_REQUEST, GNSS_FIX, CHASSIS_STATE,
         IMU_SAMPLE, ROW_OBSERVATION, CAMERA_VIEW, SIM_TRUTH, SIM_FARM, SIM_CONTACT, SIM_SCAN, LIDAR_SCAN,
-        NAV_ODOMETRY, LIDAR3D_CLOUD, MAP_MATCH, RECORDER_STATUS, NAV_PRELUDE,
+        NAV_ODOMETRY, LIDAR3D_CLOUD, MAP_MATCH,
+        RECORDER_STATUS, NAV_PRELUDE, CALIBRATION_WANTED, CALIBRATION_VIEW, CALIBRATION_IN_USE, CAMERA_RAW, SIM_BOARD,
+        SIM_BOARD_SCAN,
     )
 }  # fmt: skip

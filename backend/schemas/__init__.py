@@ -4,6 +4,15 @@ Numbers in requests are finite: pydantic hands `allow_inf_nan=False` down into n
 """
 
 from backend.schemas.base import ErrorDocument, Id, Received, Sent
+from backend.schemas.calibration import (
+    CalibrationAccept,
+    CalibrationAccepted,
+    CalibrationDocument,
+    CalibrationStart,
+    PoseChange,
+    VersionChoice,
+    VersionDocument,
+)
 from backend.schemas.drive import ActionResult, Nonce, OperatorAction, RunStart, StopResult
 from backend.schemas.imports import Job, JobStarted, JobState
 from backend.schemas.live import Heartbeat, LiveTopics
@@ -24,6 +33,10 @@ from backend.schemas.trunks import TrunkAddress, TrunkDocument, TrunkMapDocument
 
 __all__ = [
     "ActionResult",
+    "CalibrationAccept",
+    "CalibrationAccepted",
+    "CalibrationDocument",
+    "CalibrationStart",
     "ErrorDocument",
     "Heartbeat",
     "Id",
@@ -43,6 +56,7 @@ __all__ = [
     "Nonce",
     "OperatorAction",
     "OrthophotoInfo",
+    "PoseChange",
     "Preview",
     "PreviewRequest",
     "Received",
@@ -67,4 +81,6 @@ __all__ = [
     "TrunkDocument",
     "TrunkMapDocument",
     "TrunksMapped",
+    "VersionChoice",
+    "VersionDocument",
 ]

@@ -5,7 +5,17 @@ from __future__ import annotations
 from pydantic import ConfigDict, Field
 
 from backend.schemas.base import Received, Sent
-from navcore.messages import CameraView, GnssFix, MapMatch, MissionPlan, ModeSwitch, NavStatus, RecorderStatus
+from navcore.messages import (
+    CalibrationInUse,
+    CalibrationView,
+    CameraView,
+    GnssFix,
+    MapMatch,
+    MissionPlan,
+    ModeSwitch,
+    NavStatus,
+    RecorderStatus,
+)
 
 
 class Heartbeat(Received):
@@ -26,3 +36,5 @@ class LiveTopics(Sent):
     camera_view: CameraView | None = Field(alias="camera/view")
     map_match: MapMatch | None = Field(alias="lidar3d/match")
     recorder_status: RecorderStatus | None = Field(alias="recorder/status")
+    calibration_view: CalibrationView | None = Field(alias="calibration/view")
+    calibration_in_use: CalibrationInUse | None = Field(alias="calibration/in_use")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,11 +12,11 @@ from navcore.calibration.board import Board, BoardSighting
 from navcore.calibration.board_finder import BoardFinder, BoardFinderParams
 from navcore.calibration.board_on_scan import BoardOnScan
 from navcore.calibration.board_run import plain_scan
-from navcore.calibration.coverage import CoverageParams, missing_poses
 from navcore.calibration.extrinsics import BoardPair
 from navcore.geometry.intrinsics import Intrinsics
 from navcore.geometry.lens import Lens
 from navcore.geometry.pinhole import R_BASE_OPTICAL, rotation_from_rpy
+from navcore.sim.board_person import BoardPerson, corners_at
 from navcore.sim.board_pictures import BoardPictureParams, BoardPictures
 from navcore.sim.board_poses import BoardPoseParams, BoardPoses
 from navcore.sim.board_scans import BoardScanParams, BoardScans
@@ -32,42 +33,26 @@ NEAR = BoardPoseParams(nearest=0.18, furthest=0.8, tilt_deg=40.0, turn_deg=180.0
 HELD = BoardPoseParams(nearest=0.5, furthest=1.3, tilt_deg=45.0, turn_deg=60.0)
 # Of the LiDAR at 10 Hz in the second for which a board is held still.
 TURNS = 10
-# Poses that a person thinks of before taking the one that the guidance asks for.
-IDEAS = 12
 
 
 def guided_pictures(rng: np.random.Generator, count: int) -> list[BoardSighting]:
     """Boards found in rendered pictures whose poses fill what was missing before."""
     board = Board()
-    poses, finder = BoardPoses(CAMERA, LENS, board, NEAR), BoardFinder(board, BoardFinderParams())
+    person, finder = BoardPerson(CAMERA, LENS, board, NEAR), BoardFinder(board, BoardFinderParams())
     camera = BoardPictures(CAMERA, LENS, board, BoardPictureParams())
     seen: list[BoardSighting] = []
     while len(seen) < count:
-        ideas = [poses.draw(rng) for _ in range(IDEAS)]
-        T = max(ideas, key=lambda idea: _worth(seen, idea, board))
+        T = person.for_camera(seen, rng)
         found = finder.find(camera.render(T, rng), f"pose {len(seen)}")
         if isinstance(found, BoardSighting):
             seen.append(found)
     return seen
 
 
-def _worth(seen: Sequence[BoardSighting], T_camera_board: Floats, board: Board) -> float:
-    """How much of what is asked for is there with that pose too; of equals, how even the picture is covered."""
-    added = seen_corners(T_camera_board, board, "", None)
-    coverage = missing_poses([*seen, added], CAMERA.size, CoverageParams())
-    return coverage.share - 1e-3 * float(np.std(coverage.grid) / max(coverage.grid.mean(), 1.0))
-
-
-def seen_corners(T: Floats, board: Board, name: str, rng: np.random.Generator | None) -> BoardSighting:
-    """The corners at that pose, with noise if there is a generator."""
-    at = board.corners() @ T[:3, :3].T + T[:3, 3]
-    pixels = CAMERA.pixels(LENS.bend(at[:, :2] / at[:, 2:]))
-    if rng is not None:
-        pixels = pixels + CORNER_PX * rng.standard_normal(pixels.shape)
-    return BoardSighting(
-        name=name, width_px=CAMERA.width_px, height_px=CAMERA.height_px, ids=np.arange(len(at)),
-        points=board.corners(), pixels=pixels, edge_px=2.0,
-    )  # fmt: skip
+def seen_corners(T: Floats, board: Board, name: str, rng: np.random.Generator) -> BoardSighting:
+    """The corners at that pose, with noise."""
+    sighting = corners_at(T, board, CAMERA, LENS, name)
+    return replace(sighting, pixels=sighting.pixels + CORNER_PX * rng.standard_normal(sighting.pixels.shape))
 
 
 def true_mount(rng: np.random.Generator) -> Floats:

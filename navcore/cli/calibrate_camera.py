@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
 from navcore.calibration.board import Board
 from navcore.calibration.board_finder import BoardFinder, BoardFinderParams
-from navcore.calibration.calibration_file import CalibrationVersion, id_of
+from navcore.calibration.calibration_file import CalibrationVersion
 from navcore.calibration.coverage import CoverageParams, missing_poses
 from navcore.calibration.folder import see_folder
-from navcore.calibration.intrinsics import CameraIntrinsics, IntrinsicsParams, calibrate_intrinsics
+from navcore.calibration.found_values import MadeBy, camera_values, camera_version
+from navcore.calibration.intrinsics import IntrinsicsParams, calibrate_intrinsics
 from navcore.cli.calibrate_drawing import draw_camera
 from navcore.cli.calibrate_when import utc_now
 from navcore.errors import CalibrationError
@@ -28,9 +30,9 @@ def calibrated_camera(
     coverage = missing_poses(found.sightings, found.camera.size, CoverageParams())
     if plot is not None:
         draw_camera(plot, found, coverage)
-    version = _version(found, by, robot, camera)
+    version = camera_version(found, MadeBy(made_utc=utc_now(), by=by, robot=robot, camera=camera))
     record = {
-        "kind": "camera", "version": version.id, "values": _values(found),
+        "kind": "camera", "version": version.id, "values": [asdict(value) for value in camera_values(found)],
         "quality": {
             "pictures": len(found.sightings),
             "reprojection error (px, RMS)": round(found.rms_px, 4),
@@ -44,22 +46,3 @@ def calibrated_camera(
         "missing": list(coverage.missing), "coverage": coverage.grid.tolist(), "plot": str(plot) if plot else None,
     }  # fmt: skip
     return version, record
-
-
-def _version(found: CameraIntrinsics, by: str, robot: str, camera: str) -> CalibrationVersion:
-    now = utc_now()
-    return CalibrationVersion(
-        id=id_of(now), made_utc=now, made_by=by, robot=robot, camera=camera, intrinsics=found.camera,
-        lens=found.lens, camera_std=found.std, rms_px=found.rms_px, left_out_px=found.left_out_px,
-        pictures=len(found.sightings),
-    )  # fmt: skip
-
-
-def _values(found: CameraIntrinsics) -> list[dict[str, Any]]:
-    c = found.camera
-    values = {"fx": c.fx, "fy": c.fy, "cx": c.cx, "cy": c.cy}
-    values |= dict(zip(("k1", "k2", "p1", "p2", "k3"), found.lens.coefficients, strict=True))
-    return [
-        {"name": name, "value": value, "std": found.std[name], "unit": "px" if name[0] in "fc" else ""}
-        for name, value in values.items()
-    ]

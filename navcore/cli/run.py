@@ -94,6 +94,7 @@ def _environment(settings: Settings) -> dict[str, str]:
         "ROWPILOT_DATA_DIR": str(settings.data_dir),
         "ROWPILOT_BUS_DIR": str(settings.bus_dir),
         "ROWPILOT_VEHICLE": settings.vehicle,
+        "ROWPILOT_ROBOT": settings.robot,
         "ROWPILOT_SIMULATED": "true" if settings.simulated else "false",
     }
 
@@ -127,7 +128,8 @@ def _real_robot(settings: Settings, site: Path, can: str, gnss: str | None, conf
     DeviceAddress(gnss)
     return Robot(
         bus=settings.bus_dir, site=site, vehicle=settings.vehicle, config=config,
-        can=CanSettings(interface="socketcan", channel=can), gnss=gnss,
+        can=CanSettings(interface="socketcan", channel=can), gnss=gnss, calibration=settings.calibration_dir,
+        name=settings.robot,
     )  # fmt: skip
 
 

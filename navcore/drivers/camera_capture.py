@@ -63,6 +63,7 @@ class CameraCapture:
         self._params, self._clock = params, clock
         self._straighten = rectification(params)
         self._newest: Picture | None = None
+        self._raw: Picture | None = None
         self._arrived = threading.Condition()
         self._stopping = threading.Event()
         self._thread = threading.Thread(target=self._run, name="camera", daemon=True)
@@ -86,6 +87,13 @@ class CameraCapture:
             return None
         return Picture(image=self._straighten(picture.image), stamp_ns=picture.stamp_ns)
 
+    def raw(self, after_ns: int, timeout_s: float) -> Picture | None:
+        """As `newest`, as the lens bends it and of whatever size the camera gives: to calibrate it by."""
+        with self._arrived:
+            self._arrived.wait_for(lambda: self._raw is not None and self._raw.stamp_ns > after_ns, timeout_s)
+            picture = self._raw
+        return picture if picture is not None and picture.stamp_ns > after_ns else None
+
     def _run(self) -> None:
         while not self._stopping.is_set():
             camera = open_camera(self._params)
@@ -102,18 +110,21 @@ class CameraCapture:
             given, image = camera.read()
             if not given:
                 return f"The camera {self._params.source} gives no picture. Look at its cable and address."
-            if (wrong := self._wrong_size(image)) is not None:
-                return wrong
-            self.problem = ""
-            with self._arrived:
-                self._newest = Picture(image=np.asarray(image, dtype=np.uint8), stamp_ns=self._stamp_ns(camera))
-                self._arrived.notify_all()
+            self.problem = self._wrong_size(image)
+            self._hand_out(Picture(image=np.asarray(image, dtype=np.uint8), stamp_ns=self._stamp_ns(camera)))
         return ""
 
-    def _wrong_size(self, image: NDArray[np.generic]) -> str | None:
+    def _hand_out(self, picture: Picture) -> None:
+        """A picture of the wrong size is good for a new calibration only."""
+        with self._arrived:
+            self._raw = picture
+            self._newest = self._newest if self.problem else picture
+            self._arrived.notify_all()
+
+    def _wrong_size(self, image: NDArray[np.generic]) -> str:
         (height, width), mount = image.shape[:2], self._params.mount
         if (width, height) == (mount.width_px, mount.height_px):
-            return None
+            return ""
         return (
             f"The camera {self._params.source} gives {width}x{height} pictures, but its calibration is for "
             f"{mount.width_px}x{mount.height_px}. Set the camera's size, or calibrate again."

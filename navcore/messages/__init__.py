@@ -5,6 +5,15 @@ follow REP 103/105: `map` is ENU in metres from the site's datum, `base_link` is
 u right, v down. Angles are radians in (-pi, pi], counter-clockwise from east.
 """
 
+from navcore.messages.calibration import (
+    BoardOnFloor,
+    BoardPhase,
+    CalibrationInUse,
+    CalibrationJob,
+    CalibrationView,
+    RawPicture,
+    RawPictureWanted,
+)
 from navcore.messages.camera import (
     CameraName,
     CameraRequest,
@@ -43,6 +52,11 @@ from navcore.messages.tick import Decision, NavInputs, NavPrelude
 __all__ = [
     "USUAL_WIDTH",
     "ActiveEvent",
+    "BoardOnFloor",
+    "BoardPhase",
+    "CalibrationInUse",
+    "CalibrationJob",
+    "CalibrationView",
     "CameraMount",
     "CameraName",
     "CameraRequest",
@@ -76,6 +90,8 @@ __all__ = [
     "PlannedTrunk",
     "Point",
     "PoseEstimate",
+    "RawPicture",
+    "RawPictureWanted",
     "RecorderStatus",
     "Reply",
     "Request",

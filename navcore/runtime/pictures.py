@@ -24,5 +24,11 @@ class Cameras(Protocol):
     def take(self, camera: CameraName) -> Picture | None:
         """A new picture, or None if there is none."""
 
+    def raw(self, camera: CameraName) -> Picture | None:
+        """A new picture as the lens bends it, or None if there is none."""
+
+    def problem(self, camera: CameraName) -> str:
+        """Why a camera gives no pictures, or what is wrong with them; empty when all is well."""
+
     def close(self) -> None:
         """Let go of them."""

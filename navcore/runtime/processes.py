@@ -33,6 +33,7 @@ class Robot:
         bus: directory of the sockets. site: map of the farm as JSON.
         vehicle: key of `vehicle.PROFILES`. config: settings, TOML; None takes the defaults.
         can, gnss: chassis and receiver; simulated ones if `simulation` is given.
+        calibration: folder of the real robot's stored calibrations, and `name` whose they are; None for none.
     """
 
     bus: Path
@@ -42,6 +43,8 @@ class Robot:
     gnss: str
     config: Path | None = None
     simulation: SimulationParams | None = None
+    calibration: Path | None = None
+    name: str = ""
 
     def vehicle_params(self) -> VehicleParams:
         """The profile."""
@@ -98,7 +101,7 @@ def world_arguments(robot: Robot) -> tuple[str, ...]:
 def row_worker_arguments(robot: Robot) -> tuple[str, ...]:
     """See row_worker."""
     drawn = () if robot.simulation is None else _simulation(robot)
-    return (*_bus(robot), *_site(robot), *_config(robot), *drawn)
+    return (*_bus(robot), *_site(robot), *_config(robot), *_calibration(robot), *drawn)
 
 
 def has_lidar3d(robot: Robot) -> bool:
@@ -142,6 +145,10 @@ def _site(robot: Robot) -> tuple[str, ...]:
 
 def _config(robot: Robot) -> tuple[str, ...]:
     return () if robot.config is None else ("--config", str(robot.config))
+
+
+def _calibration(robot: Robot) -> tuple[str, ...]:
+    return () if robot.calibration is None else ("--calibration", str(robot.calibration), "--robot", robot.name)
 
 
 def _simulation(robot: Robot) -> tuple[str, ...]:

@@ -37,19 +37,29 @@ class RealCameras:
     def take(self, camera: CameraName) -> Picture | None:
         """See `Cameras`."""
         capture = self._captures.get(camera)
-        if capture is None:
-            self._tell(camera, f"No {camera.value} camera is set. Name its source in the settings.")
-            return None
-        picture = capture.newest(self._last_ns[camera], PATIENCE_S)
-        self._tell(camera, capture.problem)
-        if picture is not None:
-            self._last_ns[camera] = picture.stamp_ns
-        return picture
+        picture = capture.newest(self._last_ns[camera], PATIENCE_S) if capture else None
+        self._tell(camera, self.problem(camera))
+        return self._once(camera, picture)
+
+    def raw(self, camera: CameraName) -> Picture | None:
+        """See `Cameras`."""
+        capture = self._captures.get(camera)
+        return self._once(camera, capture.raw(self._last_ns[camera], PATIENCE_S) if capture else None)
+
+    def problem(self, camera: CameraName) -> str:
+        """See `Cameras`."""
+        capture = self._captures.get(camera)
+        return capture.problem if capture else f"No {camera.value} camera is set. Name its source in the settings."
 
     def close(self) -> None:
         """See `Cameras`."""
         for capture in self._captures.values():
             capture.stop()
+
+    def _once(self, camera: CameraName, picture: Picture | None) -> Picture | None:
+        if picture is not None:
+            self._last_ns[camera] = picture.stamp_ns
+        return picture
 
     def _tell(self, camera: CameraName, problem: str) -> None:
         """Each problem once."""

@@ -65,6 +65,14 @@ class SimulatedCameras:
             time.sleep(wait_ns * 1e-9)
         return Picture(image=image, stamp_ns=self._truth.stamp_ns)
 
+    def raw(self, camera: CameraName) -> Picture | None:
+        """See `Cameras`: these lenses bend nothing."""
+        return self.take(camera)
+
+    def problem(self, camera: CameraName) -> str:
+        """See `Cameras`."""
+        return ""
+
     def close(self) -> None:
         """See `Cameras`."""
         self._bus.close()

@@ -52,13 +52,20 @@ class BoardPictures:
 
     def render(self, T_camera_board: Floats, rng: np.random.Generator) -> Image:
         """The picture (H, W, 3), BGR, of the board at that pose (4, 4)."""
-        p, c = self._params, self._camera
+        return self.exposed(self.lit(T_camera_board, rng), rng)
+
+    def lit(self, T_camera_board: Floats, rng: np.random.Generator) -> Floats:
+        """What falls on the sensor (H, W), grey values: the slow part of a picture, the same while it is held."""
+        c = self._camera
         albedo = np.full((c.height_px, c.width_px), WALL)
         # From rays to the board's plane: the inverse homography of columns x, y and the origin.
         H_board_ray = np.asarray(np.linalg.inv(T_camera_board[:3, [0, 1, 3]]), dtype=np.float64)
         _paint(albedo, self._rays, H_board_ray, self._texture, np.array(self._board.plate), self._board.square)
-        lit = cv2.GaussianBlur(albedo * self._light(rng), (0, 0), p.blur_px)
-        grey = np.clip(np.rint(lit + p.noise * rng.standard_normal(lit.shape)), 0, 255).astype(np.uint8)
+        return np.asarray(cv2.GaussianBlur(albedo * self._light(rng), (0, 0), self._params.blur_px), dtype=np.float64)
+
+    def exposed(self, lit: Floats, rng: np.random.Generator) -> Image:
+        """The picture (H, W, 3), BGR, of that light, with noise."""
+        grey = np.clip(np.rint(lit + self._params.noise * rng.standard_normal(lit.shape)), 0, 255).astype(np.uint8)
         return np.repeat(grey[:, :, None], 3, axis=2)
 
     def _light(self, rng: np.random.Generator) -> Floats:

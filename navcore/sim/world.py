@@ -213,14 +213,9 @@ class World:
         antenna = antenna_state(drive, self._imu.roll, self._imu.pitch, self._vehicle, ground, faults.gnss_off)
         self._gnss.epoch(self._now_ns, elapsed_s, antenna, frozen=faults.gnss_frozen, starved=faults.corrections_lost)
 
-    @property
-    def terrain(self) -> Terrain:
-        """The land."""
-        return self._terrain
-
     def trellised(self) -> Trellised:
         """All that stands here as a 3D LiDAR sees it."""
-        return trellised(self.site, self.orchard, self._terrain)
+        return trellised(self.site, self.orchard, self.terrain)
 
     def _truth(self) -> SimTruth:
         d = self._drive

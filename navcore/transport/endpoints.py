@@ -53,6 +53,11 @@ class Endpoints:
         return self.socket("supervisor_requests")
 
     @property
+    def calibrator_requests(self) -> Path:
+        """`CalibratorRequest` in, `CalibratorReply` out."""
+        return self.socket("calibrator_requests")
+
+    @property
     def guard_command(self) -> Path:
         """Datagrams to the guard: motion commands and arm requests, from the navigator alone."""
         return self.socket("guard_command")

@@ -2,7 +2,7 @@
 import { keepPreviousData, queryOptions } from "@tanstack/react-query";
 
 import { get, post } from "./client";
-import type { Job, Map3d, Mission, MissionDocument, Preview, Robot, RunDetail, RunDocument, RunMap3d, RunTrack, SiteDocument, SiteSummary, TrunkMap } from "./types";
+import type { CalibrationDocument, Job, Map3d, Mission, MissionDocument, Preview, Robot, RunDetail, RunDocument, RunMap3d, RunTrack, SiteDocument, SiteSummary, TrunkMap, VersionDocument } from "./types";
 
 export const sitesQuery = queryOptions({ queryKey: ["sites"], queryFn: ({ signal }) => get<SiteSummary[]>("/api/sites", signal) });
 
@@ -54,6 +54,19 @@ export const jobQuery = (id: string | null) =>
     enabled: id !== null,
     refetchInterval: (query) => (query.state.data === undefined || query.state.data.state === "running" ? 500 : false),
   });
+
+/** Asking for it keeps its process running, so it is asked for as long as the page is open. */
+export const calibrationQuery = queryOptions({
+  queryKey: ["calibration"],
+  queryFn: ({ signal }) => get<CalibrationDocument>("/api/calibration", signal),
+  refetchInterval: 1500,
+});
+
+export const versionsQuery = queryOptions({
+  queryKey: ["calibration-versions"],
+  queryFn: ({ signal }) => get<VersionDocument[]>("/api/calibration/versions", signal),
+  refetchInterval: 10_000, // a command may have put one there
+});
 
 export const runsQuery = queryOptions({
   queryKey: ["runs"],

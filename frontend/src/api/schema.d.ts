@@ -4,6 +4,142 @@
  */
 
 export interface paths {
+    "/api/calibration": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Calibration
+         * @description The calibration under way, if there is one. Asking keeps its process running.
+         */
+        get: operations["read_calibration_api_calibration_get"];
+        put?: never;
+        /**
+         * Begin Calibration
+         * @description Begin one; refused while a mission or another one is under way.
+         */
+        post: operations["begin_calibration_api_calibration_post"];
+        /**
+         * Throw Calibration Away
+         * @description Throw away all that was taken.
+         */
+        delete: operations["throw_calibration_away_api_calibration_delete"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/calibration/accept": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Accept Calibration
+         * @description Keep the result as a version and put it in use; refused while a mission is under way.
+         */
+        post: operations["accept_calibration_api_calibration_accept_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/calibration/board": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Board
+         * @description The board to print at its true size, as SVG.
+         */
+        get: operations["board_api_calibration_board_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/calibration/pictures/{name}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Picture
+         * @description A picture that was taken.
+         */
+        get: operations["picture_api_calibration_pictures__name__get"];
+        /**
+         * Keep Picture
+         * @description Throw a picture out of the result, or bring it back.
+         */
+        put: operations["keep_picture_api_calibration_pictures__name__put"];
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/calibration/take": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Take Picture
+         * @description Take the next picture that shows the board.
+         */
+        post: operations["take_picture_api_calibration_take_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/calibration/versions": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Versions
+         * @description All that are kept.
+         */
+        get: operations["list_versions_api_calibration_versions_get"];
+        /**
+         * Use Version
+         * @description Put a version in use; the robot sees by it from its next start.
+         */
+        put: operations["use_version_api_calibration_versions_put"];
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/drive/nonce": {
         parameters: {
             query?: never;
@@ -859,6 +995,273 @@ export interface components {
             text: string;
         };
         /**
+         * Board
+         * @description A board; paper B's by default. Its frame: origin in the middle, x right, y down, z away from a viewer.
+         *
+         *     Attributes:
+         *         columns, rows: inner corners, where two black squares meet; 3 to 20.
+         *         square: side, m; > 0. Measure the print: printers scale.
+         *         charuco: markers in the white squares (ArUco 4X4_100, 3/4 of a square wide), so that a part of it is enough.
+         *         width, height: of the plate that carries the pattern in its middle, m; 0 for a white edge one square wide.
+         *             The LiDAR sees the plate, so they count there.
+         *
+         *     Raises InputError for a board that cannot be.
+         */
+        Board: {
+            /**
+             * Charuco
+             * @default false
+             */
+            charuco: boolean;
+            /**
+             * Columns
+             * @default 8
+             */
+            columns: number;
+            /**
+             * Height
+             * @default 0
+             */
+            height: number;
+            /**
+             * Rows
+             * @default 5
+             */
+            rows: number;
+            /**
+             * Square
+             * @default 0.027
+             */
+            square: number;
+            /**
+             * Width
+             * @default 0
+             */
+            width: number;
+        };
+        /**
+         * BoardOnFloor
+         * @description A board from above in the LiDAR's plane, m: its two ends as the camera tells them, and the rays found on it.
+         */
+        BoardOnFloor: {
+            /** Ends */
+            ends: [
+                number,
+                number
+            ][];
+            /** Name */
+            name: string;
+            /** Rays */
+            rays: [
+                number,
+                number
+            ][];
+        };
+        /**
+         * BoardPhase
+         * @description How it stands with the board in the live picture.
+         *
+         *     NO_PICTURE: the camera gives none. NO_BOARD: none is found. MOVING: it is not held still yet. KNOWN: it is still,
+         *     but was taken like this before. STILL: it is about to be taken. TAKEN: it was taken just now. OFF_SCAN: the LiDAR
+         *     does not have it.
+         * @enum {string}
+         */
+        BoardPhase: "no_picture" | "no_board" | "moving" | "known" | "still" | "taken" | "off_scan";
+        /**
+         * CalibrationAccept
+         * @description Who accepts the result, and the camera's name or serial number.
+         */
+        CalibrationAccept: {
+            /** Camera */
+            camera: string;
+            /** Made By */
+            made_by: string;
+        };
+        /**
+         * CalibrationAccepted
+         * @description The id of the version that is in use now.
+         */
+        CalibrationAccepted: {
+            /** Version Id */
+            version_id: string;
+        };
+        /**
+         * CalibrationDocument
+         * @description The calibration under way.
+         *
+         *     Attributes:
+         *         setup: what was asked for, None if nothing is under way.
+         *         state: how it stands, None while its process does not answer; then `message` says why.
+         */
+        CalibrationDocument: {
+            /** Message */
+            message: string;
+            setup: components["schemas"]["SessionSetup"] | null;
+            state: components["schemas"]["SessionState"] | null;
+        };
+        /**
+         * CalibrationInUse
+         * @description With which stored calibrations the cameras see; cameras that go by the settings are not among them.
+         *
+         *     Attributes:
+         *         front, rear: id of the version; empty where the settings hold.
+         *         robot: whose they are.
+         */
+        CalibrationInUse: {
+            /**
+             * Front
+             * @default
+             */
+            front: string;
+            /**
+             * Rear
+             * @default
+             */
+            rear: string;
+            /** Robot */
+            robot: string;
+            /** Stamp Ns */
+            stamp_ns: number;
+        };
+        /**
+         * CalibrationJob
+         * @description CAMERA: focal length and lens. LIDAR: where the camera sits to the 2D LiDAR.
+         * @enum {string}
+         */
+        CalibrationJob: "camera" | "lidar";
+        /**
+         * CalibrationStart
+         * @description Begins one. `rehearsal`: with a simulated board before a simulated camera.
+         */
+        CalibrationStart: {
+            board?: components["schemas"]["Board"];
+            /** @default front */
+            camera: components["schemas"]["CameraName"];
+            job: components["schemas"]["CalibrationJob"];
+            /**
+             * Rehearsal
+             * @default false
+             */
+            rehearsal: boolean;
+        };
+        /**
+         * CalibrationVersion
+         * @description What was found on one day, and by whom.
+         *
+         *     Attributes:
+         *         id: names the file. made_utc: ISO 8601. made_by: a person. robot: its name. camera: serial number or name.
+         *         camera_std: 1-sigma by parameter (fx, fy, cx, cy in px, k1 ... without unit).
+         *         rms_px, left_out_px: reprojection error, and on pictures left out. pictures: used.
+         *         T_lidar_camera, T_base_camera: 16 numbers row by row, from the optical axes, m; None if not calibrated.
+         *         mount_std: (6,) 1-sigma of the camera's place, m, and turn, rad, along and about the LiDAR's axes.
+         *         lidar_poses: boards that camera and LiDAR saw together.
+         */
+        CalibrationVersion: {
+            /** T Base Camera */
+            T_base_camera?: number[] | null;
+            /** T Lidar Camera */
+            T_lidar_camera?: number[] | null;
+            /** Camera */
+            camera: string;
+            /** Camera Std */
+            camera_std: {
+                [key: string]: number;
+            };
+            /** Id */
+            id: string;
+            intrinsics: components["schemas"]["Intrinsics"];
+            /** Left Out Px */
+            left_out_px: number;
+            lens: components["schemas"]["Lens"];
+            /**
+             * Lidar Poses
+             * @default 0
+             */
+            lidar_poses: number;
+            /** Made By */
+            made_by: string;
+            /** Made Utc */
+            made_utc: string;
+            /** Mount Std */
+            mount_std?: number[] | null;
+            /** Pictures */
+            pictures: number;
+            /** Rms Px */
+            rms_px: number;
+            /** Robot */
+            robot: string;
+        };
+        /**
+         * CalibrationView
+         * @description The live picture's description for the browser while somebody calibrates; its JPEG travels beside it.
+         *
+         *     Attributes:
+         *         width_px, height_px: in whose pixels `corners` are; the JPEG may be smaller.
+         *         corners: (u, v) of the board's corners found.
+         *         words: what the person should do or know now, a sentence.
+         *         stillness: how much of the time that a board must be held still has passed, 0 to 1.
+         *         taken: how many poses were taken. revision: counts the changes of what was taken and of its result.
+         *         scan: ends of the newest scan's rays in the LiDAR's plane (x, y), m; none without LiDAR.
+         *         board: the board from above, if it is seen and the LiDAR is being calibrated.
+         *         rehearsal: drawn pictures of a simulated board, not the robot's camera.
+         */
+        CalibrationView: {
+            board?: components["schemas"]["BoardOnFloor"] | null;
+            camera: components["schemas"]["CameraName"];
+            /**
+             * Corners
+             * @default []
+             */
+            corners: [
+                number,
+                number
+            ][];
+            /**
+             * Height Px
+             * @default 0
+             */
+            height_px: number;
+            job: components["schemas"]["CalibrationJob"];
+            phase: components["schemas"]["BoardPhase"];
+            /**
+             * Rehearsal
+             * @default false
+             */
+            rehearsal: boolean;
+            /**
+             * Revision
+             * @default 0
+             */
+            revision: number;
+            /**
+             * Scan
+             * @default []
+             */
+            scan: [
+                number,
+                number
+            ][];
+            /** Stamp Ns */
+            stamp_ns: number;
+            /**
+             * Stillness
+             * @default 0
+             */
+            stillness: number;
+            /**
+             * Taken
+             * @default 0
+             */
+            taken: number;
+            /**
+             * Width Px
+             * @default 0
+             */
+            width_px: number;
+            /** Words */
+            words: string;
+        };
+        /**
          * CameraMount
          * @description How a camera is mounted, as the plants tell that it was driven up to; each with its 1-sigma.
          *
@@ -1009,6 +1412,20 @@ export interface components {
          */
         FixQuality: 0 | 1 | 2 | 3 | 4 | 5 | 6;
         /**
+         * FoundValue
+         * @description A number with its 1-sigma, both in `unit`: px, m, deg, or none.
+         */
+        FoundValue: {
+            /** Name */
+            name: string;
+            /** Std */
+            std: number;
+            /** Unit */
+            unit: string;
+            /** Value */
+            value: number;
+        };
+        /**
          * GnssFix
          * @description One epoch of a receiver.
          *
@@ -1117,6 +1534,30 @@ export interface components {
             version: number;
         };
         /**
+         * Intrinsics
+         * @description Of a picture without distortion, in pixels.
+         *
+         *     Attributes:
+         *         width_px, height_px: of the picture; >= 1.
+         *         fx, fy: focal lengths; > 0. cx, cy: principal point.
+         *
+         *     Raises NotFiniteError for NaN or infinity, InputError for a size or focal length that no camera has.
+         */
+        Intrinsics: {
+            /** Cx */
+            cx: number;
+            /** Cy */
+            cy: number;
+            /** Fx */
+            fx: number;
+            /** Fy */
+            fy: number;
+            /** Height Px */
+            height_px: number;
+            /** Width Px */
+            width_px: number;
+        };
+        /**
          * Invitation
          * @description A one-time address by which another browser logs in.
          */
@@ -1190,6 +1631,37 @@ export interface components {
             width: number;
         };
         /**
+         * Lens
+         * @description Radial k1, k2, k3 and tangential p1, p2, without unit; all 0 bends nothing. Raises NotFiniteError for NaN.
+         */
+        Lens: {
+            /**
+             * K1
+             * @default 0
+             */
+            k1: number;
+            /**
+             * K2
+             * @default 0
+             */
+            k2: number;
+            /**
+             * K3
+             * @default 0
+             */
+            k3: number;
+            /**
+             * P1
+             * @default 0
+             */
+            p1: number;
+            /**
+             * P2
+             * @default 0
+             */
+            p2: number;
+        };
+        /**
          * LinkLossPolicy
          * @description What the robot does when no operator's page has been heard of for 5 s.
          * @enum {string}
@@ -1200,6 +1672,8 @@ export interface components {
          * @description Newest message of each topic that browsers see; the same bytes travel on the live feed as `{topic, data}`.
          */
         LiveTopics: {
+            "calibration/in_use": components["schemas"]["CalibrationInUse"] | null;
+            "calibration/view": components["schemas"]["CalibrationView"] | null;
             "camera/view": components["schemas"]["CameraView"] | null;
             "gnss/fix": components["schemas"]["GnssFix"] | null;
             "nav/plan": components["schemas"]["MissionPlan"] | null;
@@ -1692,6 +2166,14 @@ export interface components {
          */
         PlantKind: "post" | "trunk";
         /**
+         * PoseChange
+         * @description Leaves a pose out of the result (False), or brings it back.
+         */
+        PoseChange: {
+            /** Kept */
+            kept: boolean;
+        };
+        /**
          * PoseEstimate
          * @description Pose of `base_link` in `map`, with the covariance of (x, y, yaw), row-major 9 numbers.
          */
@@ -1751,6 +2233,31 @@ export interface components {
             size_bytes: number;
             /** Stamp Ns */
             stamp_ns: number;
+        };
+        /**
+         * Result
+         * @description What the poses tell.
+         *
+         *     Attributes:
+         *         error, left_out_error: of all poses, in `unit`, px or sigmas; the second on pictures left out of the fit.
+         *         boards: of a LiDAR's calibration, the poses from above in the LiDAR's plane.
+         */
+        Result: {
+            /**
+             * Boards
+             * @default []
+             */
+            boards: components["schemas"]["BoardOnFloor"][];
+            /** Error */
+            error: number;
+            /** Left Out Error */
+            left_out_error: number | null;
+            /** Poses */
+            poses: number;
+            /** Unit */
+            unit: string;
+            /** Values */
+            values: components["schemas"]["FoundValue"][];
         };
         /**
          * Robot
@@ -2246,6 +2753,73 @@ export interface components {
             ends: string | null;
         };
         /**
+         * SessionSetup
+         * @description What was asked for.
+         *
+         *     Attributes:
+         *         robot: its name. rehearsal: with drawn pictures of a simulated board; nothing of it is for the robot.
+         *         camera_version: of a LiDAR's calibration, the lens that it goes by; None for a camera's.
+         */
+        SessionSetup: {
+            /** Began Utc */
+            began_utc: string;
+            board: components["schemas"]["Board"];
+            camera: components["schemas"]["CameraName"];
+            camera_version?: components["schemas"]["CalibrationVersion"] | null;
+            /** Id */
+            id: string;
+            job: components["schemas"]["CalibrationJob"];
+            /**
+             * Rehearsal
+             * @default false
+             */
+            rehearsal: boolean;
+            /** Robot */
+            robot: string;
+        };
+        /**
+         * SessionState
+         * @description How it stands.
+         *
+         *     Attributes:
+         *         revision: counts the changes. fitting: a result of the newest change is being worked out.
+         *         grid: (3, 4) corners seen in each part of the picture, row by row; empty for the LiDAR.
+         *         enough: so many corners in a part are enough.
+         *         missing: sentences, the most useful first. share: of what is asked for that is there, 0 to 1.
+         *         result: of the newest fit; None where there is none, and then `reasons` say why not.
+         *         resumed: poses that were kept while the calibration was interrupted. lost: files that could not be read.
+         */
+        SessionState: {
+            /** Enough */
+            enough: number;
+            /** Fitting */
+            fitting: boolean;
+            /** Grid */
+            grid: number[];
+            /**
+             * Lost
+             * @default []
+             */
+            lost: string[];
+            /** Missing */
+            missing: string[];
+            /** Poses */
+            poses: components["schemas"]["TakenPose"][];
+            /** Reasons */
+            reasons: string[];
+            result: components["schemas"]["Result"] | null;
+            /**
+             * Resumed
+             * @default 0
+             */
+            resumed: number;
+            /** Revision */
+            revision: number;
+            setup: components["schemas"]["SessionSetup"];
+            /** Share */
+            share: number;
+        };
+        /**
          * SiteCreate
          * @description A new site, drawn or empty.
          */
@@ -2355,6 +2929,30 @@ export interface components {
             message: string;
             /** Navigator */
             navigator: boolean;
+        };
+        /**
+         * TakenPose
+         * @description A pose as the person sees it.
+         *
+         *     Attributes:
+         *         kept: by the person. refused: why the fit left it out, a sentence; empty if it did not.
+         *         error, left_out_error: of the fit and of one that had not seen it, px for the camera; sigmas for the LiDAR,
+         *             and no second one. None where there is no fit with it.
+         */
+        TakenPose: {
+            /** Error */
+            error?: number | null;
+            /** Kept */
+            kept: boolean;
+            /** Left Out Error */
+            left_out_error?: number | null;
+            /** Name */
+            name: string;
+            /**
+             * Refused
+             * @default
+             */
+            refused: string;
         };
         /**
          * TrunkAddress
@@ -2480,6 +3078,40 @@ export interface components {
             width: number;
         };
         /**
+         * VersionChoice
+         * @description Puts a version in use, or with None the settings' own numbers.
+         */
+        VersionChoice: {
+            camera: components["schemas"]["CameraName"];
+            /** Id */
+            id: string | null;
+            /**
+             * Rehearsal
+             * @default false
+             */
+            rehearsal: boolean;
+        };
+        /**
+         * VersionDocument
+         * @description A stored calibration.
+         *
+         *     Attributes:
+         *         camera: which of the robot's. version: None if the file is damaged or of another robot; `problem` says so.
+         *         in_use: chosen. rehearsal: found in a rehearsal; the robot never sees by it.
+         */
+        VersionDocument: {
+            camera: components["schemas"]["CameraName"];
+            /** Id */
+            id: string;
+            /** In Use */
+            in_use: boolean;
+            /** Problem */
+            problem: string;
+            /** Rehearsal */
+            rehearsal: boolean;
+            version: components["schemas"]["CalibrationVersion"] | null;
+        };
+        /**
          * Warehouse
          * @description Where missions start and end: position and the yaw of the parked robot.
          */
@@ -2545,6 +3177,319 @@ export interface components {
 }
 export type $defs = Record<string, never>;
 export interface operations {
+    read_calibration_api_calibration_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CalibrationDocument"];
+                };
+            };
+            /** @description Any error */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorDocument"];
+                };
+            };
+        };
+    };
+    begin_calibration_api_calibration_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["CalibrationStart"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CalibrationDocument"];
+                };
+            };
+            /** @description Any error */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorDocument"];
+                };
+            };
+        };
+    };
+    throw_calibration_away_api_calibration_delete: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description Any error */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorDocument"];
+                };
+            };
+        };
+    };
+    accept_calibration_api_calibration_accept_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["CalibrationAccept"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CalibrationAccepted"];
+                };
+            };
+            /** @description Any error */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorDocument"];
+                };
+            };
+        };
+    };
+    board_api_calibration_board_get: {
+        parameters: {
+            query?: {
+                columns?: number;
+                rows?: number;
+                square_mm?: number;
+                charuco?: boolean;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "image/svg+xml": unknown;
+                };
+            };
+            /** @description Any error */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorDocument"];
+                };
+            };
+        };
+    };
+    picture_api_calibration_pictures__name__get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                name: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "image/jpeg": unknown;
+                };
+            };
+            /** @description Any error */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorDocument"];
+                };
+            };
+        };
+    };
+    keep_picture_api_calibration_pictures__name__put: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                name: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["PoseChange"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CalibrationDocument"];
+                };
+            };
+            /** @description Any error */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorDocument"];
+                };
+            };
+        };
+    };
+    take_picture_api_calibration_take_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CalibrationDocument"];
+                };
+            };
+            /** @description Any error */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorDocument"];
+                };
+            };
+        };
+    };
+    list_versions_api_calibration_versions_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["VersionDocument"][];
+                };
+            };
+            /** @description Any error */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorDocument"];
+                };
+            };
+        };
+    };
+    use_version_api_calibration_versions_put: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["VersionChoice"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["VersionDocument"][];
+                };
+            };
+            /** @description Any error */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorDocument"];
+                };
+            };
+        };
+    };
     nonce_api_drive_nonce_get: {
         parameters: {
             query?: never;

@@ -4,6 +4,7 @@ import { DrivePage } from "../drive/DrivePage";
 import { PlanPage } from "../plan/PlanPage";
 import { RunPage } from "../runs/RunPage";
 import { RunsPage } from "../runs/RunsPage";
+import { SetupPage } from "../setup/SetupPage";
 import { Shell } from "./Shell";
 
 export function App() {
@@ -13,6 +14,9 @@ export function App() {
         <Route path="/plan/:siteId?">{({ siteId }) => <PlanPage siteId={siteId} />}</Route>
         <Route path="/drive">
           <DrivePage />
+        </Route>
+        <Route path="/setup">
+          <SetupPage />
         </Route>
         <Route path="/runs">
           <RunsPage />

@@ -1,5 +1,5 @@
 import { ActionIcon, useMantineColorScheme } from "@mantine/core";
-import { IconHistory, IconMap2, IconMoon, IconSteeringWheel, IconSun } from "@tabler/icons-react";
+import { IconAdjustments, IconHistory, IconMap2, IconMoon, IconSteeringWheel, IconSun } from "@tabler/icons-react";
 import type { ReactNode } from "react";
 import { Link, useLocation } from "wouter";
 
@@ -12,6 +12,7 @@ const PAGES = [
   { path: "/plan", word: "Plan", icon: IconMap2 },
   { path: "/drive", word: "Drive", icon: IconSteeringWheel },
   { path: "/runs", word: "Runs", icon: IconHistory },
+  { path: "/setup", word: "Setup", icon: IconAdjustments },
 ];
 
 /** Header, navigation and the stop button, around every page. On a phone both lie under the thumb. */

@@ -1,27 +1,11 @@
-import { useEffect, useRef } from "react";
+import { useCallback } from "react";
 
-import type { Layers } from "./overlay";
-import { CameraPainter, type Picture } from "./painter";
-import css from "./camera.module.css";
+import type { CameraView } from "../api/types";
+import { type Layers, overlay } from "./overlay";
+import { type Feed, PictureCanvas } from "./PictureCanvas";
 
-/** A canvas that shows whatever `feed` hands it. `feed` gets the sink and returns how to end. */
-export function CameraCanvas({ feed, layers }: { feed: (show: (picture: Picture) => void) => () => void; layers: Layers }) {
-  const canvas = useRef<HTMLCanvasElement>(null);
-  const painter = useRef<CameraPainter>(null);
-  const latest = useRef(layers);
-  latest.current = layers;
-  useEffect(() => {
-    const made = new CameraPainter(canvas.current!, latest.current);
-    painter.current = made;
-    const observer = new ResizeObserver(() => made.draw());
-    observer.observe(canvas.current!);
-    const end = feed((picture) => made.show(picture));
-    return () => {
-      end();
-      observer.disconnect();
-      made.close();
-    };
-  }, [feed]);
-  useEffect(() => painter.current?.setLayers(layers), [layers]);
-  return <canvas ref={canvas} className={css.canvas} aria-label="Camera picture" />;
+/** The row worker's pictures with the layers that are on. */
+export function CameraCanvas({ feed, layers }: { feed: Feed<CameraView>; layers: Layers }) {
+  const shapes = useCallback((view: CameraView) => overlay(view, layers), [layers]);
+  return <PictureCanvas feed={feed} shapes={shapes} />;
 }

@@ -1,31 +1,38 @@
-import type { CameraView } from "../api/types";
-import { type Layers, overlay } from "./overlay";
+import type { Shape } from "./overlay";
 import { paint } from "./paint";
 
-export interface Picture {
-  view: CameraView;
+/** A description tells the picture's size, in whose pixels everything is drawn; the JPEG may be smaller. */
+export interface Described {
+  width_px: number;
+  height_px: number;
+}
+
+export interface Picture<V extends Described> {
+  view: V;
   jpeg: Blob;
 }
 
+export type Draw<V> = (view: V) => readonly Shape[];
+
 /** Shows pictures with their own lines: both come from one message and reach the canvas in one stroke. Newest wins. */
-export class CameraPainter {
-  private shown: { view: CameraView; bitmap: ImageBitmap } | null = null;
-  private next: Picture | null = null;
+export class PicturePainter<V extends Described> {
+  private shown: { view: V; bitmap: ImageBitmap } | null = null;
+  private next: Picture<V> | null = null;
   private decoding = false;
   private closed = false;
 
   constructor(
     private readonly canvas: HTMLCanvasElement,
-    private layers: Layers,
+    private shapes: Draw<V>,
   ) {}
 
-  show(picture: Picture): void {
+  show(picture: Picture<V>): void {
     this.next = picture;
     if (!this.decoding) void this.decode();
   }
 
-  setLayers(layers: Layers): void {
-    this.layers = layers;
+  setShapes(shapes: Draw<V>): void {
+    this.shapes = shapes;
     this.draw();
   }
 
@@ -42,7 +49,7 @@ export class CameraPainter {
     this.canvas.height = height;
     const ctx = this.canvas.getContext("2d")!;
     ctx.drawImage(bitmap, 0, 0, width, height);
-    paint(ctx, overlay(view, this.layers), width / view.width_px, ratio);
+    paint(ctx, this.shapes(view), width / view.width_px, ratio);
   }
 
   close(): void {
@@ -62,7 +69,7 @@ export class CameraPainter {
     this.decoding = false;
   }
 
-  private put(view: CameraView, bitmap: ImageBitmap): void {
+  private put(view: V, bitmap: ImageBitmap): void {
     this.shown?.bitmap.close();
     this.shown = { view, bitmap };
     this.draw();

@@ -1,5 +1,6 @@
 import { useCallback } from "react";
 
+import type { CameraView } from "../api/types";
 import { CameraCanvas } from "../camera/CameraCanvas";
 import { LayerChips } from "../camera/LayerChips";
 import css from "../camera/camera.module.css";
@@ -15,7 +16,7 @@ export function LiveCamera() {
   const blind = view?.row.source === "lidar"; // then the last picture is an old one
   const [layers, setLayers] = useLayers();
   const feed = useCallback(
-    (show: (picture: Picture) => void) => {
+    (show: (picture: Picture<CameraView>) => void) => {
       const pass = () => {
         const entry = store.newest("camera/view");
         if (entry?.attachment) show({ view: entry.data, jpeg: entry.attachment });

@@ -1,5 +1,5 @@
 /** Messages of the live feed: JSON text, or for pictures u32 header length (little-endian), JSON header, JPEG. */
-import type { CameraView, GnssFix, MissionPlan, ModeSwitch, NavStatus } from "../api/types";
+import type { CalibrationInUse, CalibrationView, CameraView, GnssFix, MissionPlan, ModeSwitch, NavStatus } from "../api/types";
 
 /** What travels under each topic's name. */
 export interface Topics {
@@ -8,6 +8,8 @@ export interface Topics {
   "nav/plan": MissionPlan;
   "gnss/fix": GnssFix;
   "camera/view": CameraView;
+  "calibration/view": CalibrationView;
+  "calibration/in_use": CalibrationInUse;
 }
 
 export type TopicName = keyof Topics;

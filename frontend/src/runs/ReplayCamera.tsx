@@ -13,7 +13,7 @@ import { indexAt } from "../plots/bands";
 /** A picture further away in time than this says nothing about the moment looked at, s. */
 const NEAR = 1;
 
-async function fetchPicture(runId: string, t: number, signal: AbortSignal): Promise<Picture> {
+async function fetchPicture(runId: string, t: number, signal: AbortSignal): Promise<Picture<CameraView>> {
   const response = await request("GET", `/api/runs/${runId}/camera?t_s=${t}`, undefined, signal);
   const view = JSON.parse(response.headers.get("X-Camera-View") ?? "null") as CameraView;
   return { view, jpeg: await response.blob() };
@@ -46,14 +46,14 @@ export function ReplayCamera({ runId, track, t }: { runId: string; track: RunTra
 }
 
 /** Hands each new picture to the canvas. */
-function useFeed(picture: Picture | undefined) {
-  const sink = useRef<((picture: Picture) => void) | null>(null);
+function useFeed(picture: Picture<CameraView> | undefined) {
+  const sink = useRef<((picture: Picture<CameraView>) => void) | null>(null);
   const newest = useRef(picture);
   newest.current = picture;
   useEffect(() => {
     if (picture) sink.current?.(picture);
   }, [picture]);
-  return useCallback((show: (picture: Picture) => void) => {
+  return useCallback((show: (picture: Picture<CameraView>) => void) => {
     sink.current = show;
     if (newest.current) show(newest.current);
     return () => {
