@@ -9,6 +9,8 @@
     │   ├── LogError                a run log or sensor log that cannot be read
     │   ├── SentenceError           a receiver's sentence that is no evidence; counted by its reader
     │   ├── ModelError              a detector file that cannot be used
+    │   ├── CloudError              a file of points that cannot be read or written
+    │   ├── NdtMapError             an NDT map or its file is unusable
     │   ├── CalibrationError        pictures, scans or a file that no calibration comes of; carries every reason
     │   └── ConfigError             unknown key, value out of bounds
     ├── TransportError          a process of the station does not answer
@@ -72,6 +74,14 @@ class SentenceError(InputError):
 
 class ModelError(InputError):
     """A detector file that cannot be used."""
+
+
+class CloudError(InputError):
+    """A file of points that cannot be read or written; the text names file and place."""
+
+
+class NdtMapError(InputError):
+    """An NDT map or its file is unusable."""
 
 
 class CalibrationError(InputError):
