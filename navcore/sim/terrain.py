@@ -84,6 +84,22 @@ class TerrainParams:
             raise InputError(f"The terrain's cross_slope_deg must lie within 15, but is {self.cross_slope_deg}.")
 
 
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class TerrainGrid:
+    """The ground as arrays.
+
+    Attributes:
+        x, y: of the first cell's middle, m. cell: m.
+        heights: (R, C) above the plane z = 0, m. surfaces: (R, C) `Surface`.
+    """
+
+    x: float
+    y: float
+    cell: float
+    heights: Floats
+    surfaces: Bytes
+
+
 class Terrain:
     """Heights and surfaces on a grid over the site; the same seed gives the same ground, bit for bit."""
 
@@ -113,6 +129,14 @@ class Terrain:
         column = min(max(int((x - self._x0) * self._inverse_cell), 0), self._columns - 1)
         row = min(max(int((y - self._y0) * self._inverse_cell), 0), self._row_count - 1)
         return Surface(self._surfaces[row * self._columns + column])
+
+    def grid(self) -> TerrainGrid:
+        """All of it; the arrays are the terrain's own."""
+        shape = (self._row_count, self._columns)
+        return TerrainGrid(
+            x=self._x0, y=self._y0, cell=1.0 / self._inverse_cell, heights=np.asarray(self._heights).reshape(shape),
+            surfaces=np.asarray(self._surfaces).reshape(shape),
+        )  # fmt: skip
 
     @property
     def slope(self) -> tuple[float, float]:

@@ -5,6 +5,7 @@ Shapes are rows of 15 numbers in `map`, m:
     BEAM   two ends x, y, z each, radius at each end
     CARD   middle, half edges u and v, unit normal, 1 / |u|^2, 1 / |v|^2, share that is leaf (less than 0: a tuft)
     PANEL  four corners in order around, unit normal
+    THREAD two ends x, y, z each, radius: thinner than a LiDAR's spot, within whose reach it is met
 """
 
 from __future__ import annotations
@@ -14,9 +15,11 @@ import math
 from navcore.sim.render.buffers import Floats
 from navcore.sim.render.compiled import inlined
 
-TUBE, BEAM, CARD, PANEL = 0, 1, 2, 3
+TUBE, BEAM, CARD, PANEL, THREAD = 0, 1, 2, 3, 4
 NUMBERS = 15
 MISS = math.inf
+# Half width of a LiDAR's spot: at the lens, m, and what it gains per metre (VLP-16: 9.5 mm, 3 mrad).
+SPOT_M, SPOT_GAIN = 0.005, 0.0015
 _LEAF_CELLS = 12.0
 _LEAF_RIM = 0.8
 
@@ -63,6 +66,27 @@ def meet_beam(
         return MISS
     t -= math.sqrt(depth2 * length2 / across2)
     return t if t > 0.0 else MISS
+
+
+@inlined
+def meet_thread(
+    s: Floats, k: int, ox: float, oy: float, oz: float, dx: float, dy: float, dz: float
+) -> float:  # fmt: skip
+    """Distance along the ray to where it passes thread k nearest, if the spot there touches it."""
+    ex, ey, ez = s[k, 3] - s[k, 0], s[k, 4] - s[k, 1], s[k, 5] - s[k, 2]
+    wx, wy, wz = ox - s[k, 0], oy - s[k, 1], oz - s[k, 2]
+    length2, along = ex * ex + ey * ey + ez * ez, ex * dx + ey * dy + ez * dz
+    across2 = length2 - along * along
+    if across2 < 1e-12:
+        return MISS
+    we, wd = wx * ex + wy * ey + wz * ez, wx * dx + wy * dy + wz * dz
+    share = (we - along * wd) / across2
+    if share < 0.0 or share > 1.0:
+        return MISS
+    t = share * along - wd
+    gx, gy, gz = wx + t * dx - share * ex, wy + t * dy - share * ey, wz + t * dz - share * ez
+    reach = s[k, 6] + SPOT_M + SPOT_GAIN * t
+    return t if t > 0.0 and gx * gx + gy * gy + gz * gz < reach * reach else MISS
 
 
 @inlined

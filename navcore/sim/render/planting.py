@@ -33,7 +33,7 @@ def planted(orchard: Orchard, cards: Floats) -> Primitives:
     look = np.concatenate((np.full(len(trunks), Material.BARK), _post_materials(orchard.posts[:, 5]), wood))
     owners = np.concatenate((np.arange(1, len(trunks) + len(posts) + 1), np.zeros(len(stakes), np.int64)))
     stalks = weed_stalks(orchard.clutter, orchard.params.seed)
-    panels, panel_look = _shed_panels(orchard.shed)
+    panels, panel_look = shed_panels(orchard.shed)
     standing = Primitives(
         tubes=np.concatenate((trunks, posts, stakes)),
         tube_look=np.column_stack((look, owners)).astype(np.int64),
@@ -136,7 +136,7 @@ def _wire_places(orchard: Orchard, reach: float) -> tuple[tuple[float, float], .
     return ()
 
 
-def _shed_panels(shed: Shed | None) -> tuple[Floats, Floats]:
+def shed_panels(shed: Shed | None) -> tuple[Floats, Floats]:
     """Walls and a gable roof: corners (Q, 4, 5) and (normal, material) (Q, 4)."""
     if shed is None:
         return np.zeros((0, 4, 5)), np.zeros((0, 4))
