@@ -56,9 +56,7 @@ class UprightAxis:
         return self.x + height * self.slope_x, self.y + height * self.slope_y
 
 
-def fit_axis(
-    points: Floats, origins: Floats | None, params: AxisFitParams = AxisFitParams()
-) -> UprightAxis:
+def fit_axis(points: Floats, origins: Floats | None, params: AxisFitParams = AxisFitParams()) -> UprightAxis:
     """From points (N, 3), N >= 3, whose z is the height above the ground, m, and where each was seen from (N, 3).
 
     Weighted least squares in foot, slopes and depth: across its ray a point lies about the axis, along it the depth of

@@ -34,21 +34,21 @@ class PostLineParams:
     break_at: float = 3.5
 
 
-def post_lines(places: Floats, params: PostLineParams = PostLineParams()) -> tuple[Ints, ...]:
-    """Indices of posts at places (P, 2), m, for each line in the order along it.
+def post_lines(places: Floats, params: PostLineParams = PostLineParams()) -> tuple[tuple[Ints, ...], ...]:
+    """Families of parallel lines of posts at places (P, 2), m: of each line its posts' indices in the order along it.
 
-    The direction that joins most posts into lines comes first, and so on with those left. Lines of one direction
-    come side by side, each in the same sense.
+    The direction that joins most posts into lines comes first, and so on with those left. Lines of a family come side
+    by side, each in the same sense.
     """
     left = np.arange(len(places))
-    lines: list[Ints] = []
+    families: list[tuple[Ints, ...]] = []
     while len(left) >= params.fewest:
         family = _family(places, left, params)
         if not family:
             break
-        lines += family
+        families.append(tuple(family))
         left = np.setdiff1d(left, np.concatenate(family))
-    return tuple(lines)
+    return tuple(families)
 
 
 def _family(places: Floats, left: Ints, params: PostLineParams) -> list[Ints]:
@@ -61,8 +61,24 @@ def _family(places: Floats, left: Ints, params: PostLineParams) -> list[Ints]:
     order = np.argsort(across, kind="stable")
     cuts = np.nonzero(np.diff(across[order]) > params.off)[0] + 1
     groups = [left[part] for part in np.split(order, cuts)]
-    found = [line for group in groups for line in _straight(places, group, unit, params)]
-    return found
+    found = [line for group in groups for line in _straight(places, group, unit, params, params.fewest)]
+    known = np.array([(places[line] @ normal).mean() for line in found])
+    lines = [
+        (float((places[line] @ normal).mean()), line)
+        for group in groups
+        for line in _straight(places, group, unit, params, 2)
+        if len(line) >= params.fewest or _at_row_spacing(float((places[line] @ normal).mean()), known, params)
+    ]
+    return [line for _, line in sorted(lines, key=lambda item: item[0])]
+
+
+def _at_row_spacing(across: float, known: Floats, params: PostLineParams) -> bool:
+    """Whether two posts that are left of a line stand where the other lines' even spacing has one."""
+    spacings = np.diff(np.unique(np.round(known, 1)))
+    if len(spacings) < 2 or spacings.min() < params.nearest:
+        return False
+    steps = (across - known) / float(spacings.min())
+    return bool(np.abs(steps - np.round(steps)).max() * spacings.min() <= params.off)
 
 
 def _heading(points: Floats, params: PostLineParams) -> float | None:
@@ -82,9 +98,11 @@ def _heading(points: Floats, params: PostLineParams) -> float | None:
     return float((best + np.average(off[near], weights=far[i, j][near] ** 2)) % math.pi)
 
 
-def _straight(places: Floats, group: Ints, unit: tuple[float, float], params: PostLineParams) -> list[Ints]:
+def _straight(
+    places: Floats, group: Ints, unit: tuple[float, float], params: PostLineParams, fewest: int
+) -> list[Ints]:
     """The line through most of a group, cut where posts are far apart; nothing for too few."""
-    if len(group) < params.fewest:
+    if len(group) < fewest:
         return []
     ordered = group[np.argsort(places[group] @ unit, kind="stable")]
     line = robust_line(places[ordered])
@@ -93,4 +111,4 @@ def _straight(places: Floats, group: Ints, unit: tuple[float, float], params: Po
     if not len(gaps) or np.median(gaps) < params.nearest:
         return []
     cuts = np.nonzero(gaps > params.break_at * float(np.median(gaps)))[0] + 1
-    return [part for part in np.split(kept, cuts) if len(part) >= params.fewest]
+    return [part for part in np.split(kept, cuts) if len(part) >= fewest]

@@ -1,4 +1,4 @@
-"""Posts: uprights that rays cannot pass in any season, taller than trunks."""
+"""Posts and trunks: uprights that rays cannot pass in any season; posts are the taller ones."""
 
 from __future__ import annotations
 
@@ -20,14 +20,15 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PostParams:
-    """Parameters of `find_posts`.
+    """Parameters of `find_uprights`.
 
     Attributes:
         shafts: where one may stand. axis: how its axis is fitted. evidence: what rays say of it.
         persistence: share of the runs that reached a layer in which it must have stood there, 0 to 1.
         shortest, tallest: heights of posts, m: trunks of a Y-trellis end at its fork (1 m in paper C's orchard), fences
             below 1.7 m, and what goes on above the trellis (3 m) is a tree or a wall.
-        alone: uprights nearer to each other than this are pieces of one wall, m.
+        trunk: a trunk stands at least so high, m.
+        alone: posts nearer to each other than this are pieces of one wall, m.
         gap: layers in between that no ray reached, at most.
         gone: layers that the newest run reached and mostly passed through, so that the post is no longer there.
     """
@@ -38,14 +39,15 @@ class PostParams:
     persistence: float = 0.5
     shortest: float = 1.7
     tallest: float = 3.1
+    trunk: float = 0.75
     alone: float = 1.0
     gap: int = 1
-    gone: int = 4
+    gone: int = 3
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Post:
-    """A post of a trellis, in `map`.
+    """A post of a trellis, or a trunk, in `map`.
 
     Attributes:
         x, y: at the ground, m; std: 1-sigma of each, m. ground: height of the ground there, m.
@@ -69,20 +71,29 @@ class Post:
         return self.x + height * self.slope_x, self.y + height * self.slope_y, self.ground + height
 
 
-def find_posts(
-    clouds: Sequence[SeenCloud], ground: GroundModel, params: PostParams = PostParams()
-) -> tuple[Post, ...]:
-    """Posts that still stand, from runs in the order in which they were driven."""
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Uprights:
+    """What stands: posts, and what is as low as a trunk."""
+
+    posts: tuple[Post, ...]
+    trunks: tuple[Post, ...]
+
+
+def find_uprights(clouds: Sequence[SeenCloud], ground: GroundModel, params: PostParams = PostParams()) -> Uprights:
+    """Those that still stand, from runs in the order in which they were driven."""
     above = [above_ground(cloud, ground) for cloud in clouds]
     axes = _axes(above, clouds, params)
     evidence = upright_evidence(axes, list(clouds), ground, params.evidence)
     share, reached = evidence.persistence()
-    posts = []
+    found = []
     for a, axis in enumerate(axes):
         top = _top(share[a] >= params.persistence, reached[a] > 0, params)
-        if top >= params.shortest and not _is_gone(evidence, a, params):
-            posts.append(_post(axis, ground, top, evidence, a, params))
-    return _alone(posts, params)
+        if top >= params.trunk and not _is_gone(evidence, a, top, params):
+            found.append(_post(axis, ground, top, evidence, a, params))
+    return Uprights(
+        posts=_alone([p for p in found if p.height >= params.shortest], params),
+        trunks=tuple(p for p in found if p.height < params.shortest),
+    )
 
 
 def _alone(posts: list[Post], params: PostParams) -> tuple[Post, ...]:
@@ -91,7 +102,9 @@ def _alone(posts: list[Post], params: PostParams) -> tuple[Post, ...]:
         return ()
     places = np.array([(post.x, post.y) for post in posts])
     near = KDTree(places).query(places, k=2)[0][:, 1]
-    return tuple(p for p, apart in zip(posts, near, strict=True) if apart >= params.alone and p.height <= params.tallest)
+    return tuple(
+        p for p, apart in zip(posts, near, strict=True) if apart >= params.alone and p.height <= params.tallest
+    )
 
 
 def above_ground(cloud: SeenCloud, ground: GroundModel) -> Floats:
@@ -108,7 +121,10 @@ def _axes(above: Sequence[Floats], clouds: Sequence[SeenCloud], params: PostPara
     points = np.concatenate([p[band] for p, band in zip(above, banded, strict=True)])
     known = all(cloud.origins is not None for cloud in clouds)
     origins = np.concatenate(
-        [np.zeros((0, 3)), *(c.origins[band] for c, band in zip(clouds, banded, strict=True) if c.origins is not None)]
+        [
+            np.zeros((0, 3)),
+            *(c.origins[band] for c, band in zip(clouds, banded, strict=True) if c.origins is not None),
+        ]
     )
     tree = KDTree(points[:, :2]) if len(places) else None
     axes = []
@@ -132,18 +148,23 @@ def _top(persists: NDArray[np.bool_], reached: NDArray[np.bool_], params: PostPa
     return top
 
 
-def _is_gone(evidence: UprightEvidence, a: int, params: PostParams) -> bool:
+def _is_gone(evidence: UprightEvidence, a: int, top: float, params: PostParams) -> bool:
     """True if the newest run that came there passed through: nothing grows or falls back into a post."""
-    for reached, stood in zip(evidence.reached[::-1, a], evidence.stood[::-1, a], strict=True):
+    below = _layers_below(top, params)
+    for reached, stood in zip(evidence.reached[::-1, a, :below], evidence.stood[::-1, a, :below], strict=True):
         if reached.sum() >= params.gone:
             return bool(2 * stood.sum() < reached.sum())
     return False
 
 
+def _layers_below(top: float, params: PostParams) -> int:
+    return round((top - params.evidence.bottom) / params.evidence.layer)
+
+
 def _post(
     axis: UprightAxis, ground: GroundModel, top: float, evidence: UprightEvidence, a: int, params: PostParams
 ) -> Post:
-    below = round((top - params.evidence.bottom) / params.evidence.layer)
+    below = _layers_below(top, params)
     reached, stood = evidence.reached[:, a, :below], evidence.stood[:, a, :below]
     came = reached.any(axis=1)
     seen = came & (2 * stood.sum(axis=1) >= reached.sum(axis=1))

@@ -76,7 +76,7 @@ class _Draft:
         self.lanes.append(
             VectorLane(
                 id=identity, kind=kind, points=points, begin=self._node(points[0]), end=self._node(points[-1]),
-                width=width, speed=speed, name=name, one_way=kind is LaneKind.U_TURN, post_spacing=spacings[0],
+                width=width, speed=speed, name=name, post_spacing=spacings[0],
                 plant_spacing=spacings[1], leaves=turn[0], enters=turn[1],
             )
         )  # fmt: skip

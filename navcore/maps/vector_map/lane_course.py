@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -22,16 +20,17 @@ def course(points: tuple[Point, ...]) -> Floats:
     """Arc length, m, direction, rad, and curvature, 1/m, (N, 3), every `STEP` m and at the end."""
     line = Polyline(np.asarray(points, dtype=np.float64))
     places = np.append(np.arange(0.0, line.length - 1e-6, STEP), line.length)
-    headings = np.array([line.heading_at(min(s, max(line.length - 1e-6, 0.0))) for s in places])
-    return np.column_stack((places, headings, [_curvature(line, float(s)) for s in places]))
+    headings = [line.heading_at(min(s, max(line.length - 1e-6, 0.0))) for s in places.tolist()]
+    return np.column_stack((places, headings, _curvatures(line, places)))
 
 
-def _curvature(line: Polyline, s: float) -> float:
-    before, after = max(s - STEP / 2, 0.0), min(s + STEP / 2, max(line.length - 1e-6, 0.0))
-    if after - before < 1e-6:
-        return 0.0
-    turn = line.heading_at(after) - line.heading_at(before)
-    return (turn + math.pi) % (2.0 * math.pi) / (after - before) - math.pi / (after - before)
+def _curvatures(line: Polyline, places: Floats) -> Floats:
+    """Turn from the chord before a place to the chord after it, each half a `STEP` long, by their length."""
+    h = STEP / 2
+    before, here, after = (line.at_all(places + d) for d in (-h, 0.0, h))
+    a, b = here - before, after - here
+    turn = np.arctan2(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0], (a * b).sum(axis=1))
+    return np.asarray(turn / h)
 
 
 def edge(points: tuple[Point, ...], offset: float) -> tuple[Point, ...]:

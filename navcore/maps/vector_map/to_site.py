@@ -25,9 +25,7 @@ def turns_of(vector_map: VectorMap) -> tuple[UTurn, ...]:
 
 
 def _road(vector_map: VectorMap, lane: VectorLane) -> Lane:
-    return Lane(
-        id=lane.id, points=vector_map.line(lane.points), width=lane.width, speed=lane.speed, name=lane.name
-    )
+    return Lane(id=lane.id, points=vector_map.line(lane.points), width=lane.width, speed=lane.speed, name=lane.name)
 
 
 def _row(vector_map: VectorMap, lane: VectorLane) -> Row:

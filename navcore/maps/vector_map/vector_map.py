@@ -52,8 +52,7 @@ class VectorLane:
         id: unique among lanes of its kind; of a row or road it is the site's own.
         points: ids of the centre line's points in order.
         begin, end: ids of the nodes at its ends.
-        width: m. speed: m/s.
-        one_way: only along its direction; roads and alleys are driven both ways.
+        width: m. speed: m/s. Every lane may be driven both ways.
         post_spacing, plant_spacing: of an alley, along its lines of plants, m; None for others.
         leaves, enters: of a U turn, ids of the alleys; empty for others.
     """
@@ -66,7 +65,6 @@ class VectorLane:
     width: float
     speed: float
     name: str = ""
-    one_way: bool = False
     post_spacing: float | None = None
     plant_spacing: float | None = None
     leaves: str = ""
