@@ -13,13 +13,28 @@ from backend import errors, permissions
 from backend.body_limits import BodyLimit
 from backend.gate import Gate
 from backend.headers import SecurityHeaders
-from backend.routes import frontend, live, missions, orthophotos, robot, runs, scene, session, sites, trunks
+from backend.routes import (
+    frontend,
+    lanelets,
+    live,
+    missions,
+    orthophotos,
+    robot,
+    rows,
+    runs,
+    scene,
+    session,
+    sites,
+    trunks,
+)
 from backend.settings import Settings
 from backend.station import Station, open_station
 
 ROOMS = (
     session,
     sites,
+    lanelets,
+    rows,
     trunks,
     orthophotos,
     missions,

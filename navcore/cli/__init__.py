@@ -4,7 +4,20 @@ from __future__ import annotations
 
 import typer
 
-from navcore.cli import dataset, decode_rplidar, evaluate, export, replay, report, run, score, see, train, trunks
+from navcore.cli import (
+    dataset,
+    decode_rplidar,
+    evaluate,
+    export,
+    replay,
+    report,
+    run,
+    score,
+    see,
+    train,
+    trunks,
+    vectormap,
+)
 from navcore.cli.bench import bench_app
 from navcore.cli.calibrate import calibrate_app
 from navcore.cli.decode import decode_app
@@ -26,6 +39,7 @@ see.register(app)
 score.register(app)
 report.register(app)
 trunks.register(app)
+vectormap.register(app)
 
 
 @app.callback()

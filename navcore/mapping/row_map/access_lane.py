@@ -11,7 +11,7 @@ _AHEAD, _SHORTEST = 3.0, 0.5
 
 
 def access_lane(site: SiteMap, found: tuple[Lane, ...]) -> Lane | None:
-    """Straight from before the warehouse to the nearest end of a found lane; None for a site with lanes of its own."""
+    """Straight from before the warehouse to the nearest end of a found lane; None where a site has lanes."""
     house = site.warehouse
     if house is None or site.lanes or not found:
         return None

@@ -25,8 +25,8 @@ class FoundRowParams:
     Attributes:
         widest, narrowest: alley between two lines of posts, m.
         side_by_side: share of the shorter line's length along which two lines of one block lie beside each other.
-        end_off: a line that ends so far from the straight edge of its block, m, was cut short by a missing post and is
-            taken to the edge; never further than `end_most`, m.
+        end_off: a line that ends so far from the straight edge of its block, m, was cut short by a missing post and
+            is taken to the edge; never further than `end_most`, m.
     """
 
     widest: float = 12.0

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -76,7 +77,7 @@ def _outer(
 
 
 def _further(p: Point, q: Point, place: Point) -> bool:
-    return shapely.Point(p).distance(shapely.Point(place)) > shapely.Point(q).distance(shapely.Point(place))
+    return math.dist(p, place) > math.dist(q, place)
 
 
 def _beside(

@@ -105,7 +105,7 @@ def _strip(rows: tuple[Row, ...], at_start: bool, params: HeadlandParams) -> sha
 
 def _depth(rows: tuple[Row, ...], at_start: bool, area: shapely.Polygon, params: HeadlandParams) -> float:
     """Free way straight on that four of five rows have at least, m."""
-    ways = []
+    ways: list[float] = []
     for row in rows:
         axis = shapely.LineString([beyond(row, at_start, 0.0), beyond(row, at_start, params.deepest)])
         ways.append(axis.intersection(area).length)

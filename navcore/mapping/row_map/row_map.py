@@ -61,15 +61,23 @@ def row_map(trellis: TrellisReference, clouds: Sequence[SeenCloud], params: RowM
 
 
 def added(site: SiteMap, found: RowMap) -> SiteMap:
-    """The site with what was found, and a way from its warehouse; ids that the site has already are changed."""
+    """The site with what was found."""
+    new = fitted(site, found)
+    return replace(
+        site, rows=site.rows + new.rows, lanes=site.lanes + new.lanes, zones=site.zones + new.zones,
+        plants=site.plants + new.plants,
+    )  # fmt: skip
+
+
+def fitted(site: SiteMap, found: RowMap) -> RowMap:
+    """What was found as the site can take it: with ids that it has not yet, and a way from its warehouse."""
     taken = {item.id for items in (site.rows, site.lanes, site.zones) for item in items}
     access = access_lane(site, found.lanes)
     lanes = found.lanes if access is None else (*found.lanes, access)
     return replace(
-        site, rows=(*site.rows, *(replace(row, id=_free_id(row.id, taken)) for row in found.rows)),
-        lanes=(*site.lanes, *(replace(lane, id=_free_id(lane.id, taken)) for lane in lanes)),
-        zones=(*site.zones, *(replace(zone, id=_free_id(zone.id, taken)) for zone in found.zones)),
-        plants=(*site.plants, *found.plants),
+        found, rows=tuple(replace(row, id=_free_id(row.id, taken)) for row in found.rows),
+        lanes=tuple(replace(lane, id=_free_id(lane.id, taken)) for lane in lanes),
+        zones=tuple(replace(zone, id=_free_id(zone.id, taken)) for zone in found.zones),
     )  # fmt: skip
 
 

@@ -54,7 +54,7 @@ class StandingGround:
         h = newest[:, 2] - ground.height(newest[:, :2])
         blocked = self._counts(newest[(h >= params.low) & (h < params.high)]) >= params.fewest
         width = 2 * round(params.unseen / params.cell / 2) + 1
-        self.free: Flags = ndimage.binary_closing(seen > 0, np.ones((width, width))) & ~blocked
+        self.free: Flags = ndimage.binary_closing(seen > 0, np.ones((width, width), dtype=np.bool_)) & ~blocked
         self.blocked: Flags = blocked
 
     def _counts(self, points: Floats) -> NDArray[np.int64]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
@@ -34,9 +35,7 @@ def u_turns(site: SiteMap, vehicle: VehicleParams, params: PlanningParams = Plan
         for from_start in (True, False):
             left = DrivenRow(a, from_start)
             entered = _entered(left, b)
-            turn = headland_turn(
-                left, entered, lambda poses, end=left.far_end: space.blocked_turn(poses, end), params
-            )
+            turn = headland_turn(left, entered, partial(space.blocked_turn, end=left.far_end), params)
             if not turn.obstacle and len(turn.parts) == 1:
                 found.append(UTurn(leaves=a.id, enters=b.id, line=_line(left, entered, turn)))
     return tuple(found)
@@ -78,4 +77,4 @@ def _line(left: DrivenRow, entered: DrivenRow, turn: Turn) -> tuple[Point, ...]:
     kept = sweep[:: max(round(_STEP / 0.1), 1)]
     poses: Floats = np.vstack((out, kept[1:], into))
     points = [(round(x, 3), round(y, 3)) for x, y in poses[:, :2].tolist()]
-    return tuple([points[0], *(q for p, q in pairwise(points) if math.dist(p, q) > 0.02)])
+    return (points[0], *(q for p, q in pairwise(points) if math.dist(p, q) > 0.02))

@@ -59,8 +59,9 @@ class UprightAxis:
 def fit_axis(points: Floats, origins: Floats | None, params: AxisFitParams = AxisFitParams()) -> UprightAxis:
     """From points (N, 3), N >= 3, whose z is the height above the ground, m, and where each was seen from (N, 3).
 
-    Weighted least squares in foot, slopes and depth: across its ray a point lies about the axis, along it the depth of
-    the surface before it; robust by Huber's weights. Without origins each point lies about the axis in any direction.
+    Weighted least squares in foot, slopes and depth: across its ray a point lies about the axis, along it the depth
+    of the surface before it; robust by Huber's weights. Without origins points lie about the axis in any
+    direction.
     """
     middle = points[:, :2].mean(axis=0)
     A, b, sigma = _equations(points, origins, middle, params)

@@ -17,9 +17,9 @@ _MOST = 65_000
 def count_hits(points: Floats, corner: Floats, cell: float, hits: Counts) -> None:
     """Add to `hits` (X, Y, Z) the points (N, 3) in each cell; `corner` is the lowest of the first one."""
     for n in range(len(points)):
-        i = int(math.floor((points[n, 0] - corner[0]) / cell))
-        j = int(math.floor((points[n, 1] - corner[1]) / cell))
-        k = int(math.floor((points[n, 2] - corner[2]) / cell))
+        i = math.floor((points[n, 0] - corner[0]) / cell)
+        j = math.floor((points[n, 1] - corner[1]) / cell)
+        k = math.floor((points[n, 2] - corner[2]) / cell)
         if 0 <= i < hits.shape[0] and 0 <= j < hits.shape[1] and 0 <= k < hits.shape[2] and hits[i, j, k] < _MOST:
             hits[i, j, k] += 1
 
@@ -28,8 +28,8 @@ def count_hits(points: Floats, corner: Floats, cell: float, hits: Counts) -> Non
 def count_passes(origins: Floats, ends: Floats, corner: Floats, cell: float, passes: Counts) -> None:
     """Add to `passes` (X, Y, Z) the rays from `origins` to `ends` (N, 3) that went through a cell and on.
 
-    Cells by the way of Amanatides and Woo (1987); the cell of the end and the one before it are left out, as the noise
-    of a distance would make the surface itself look passed.
+    Cells by the way of Amanatides and Woo (1987); the cell of the end and the one before it are left out, as the
+    noise of a distance would make the surface itself look passed.
     """
     at, step, last = np.empty(3, np.int64), np.empty(3, np.int64), np.empty(3, np.int64)
     t_next, t_step = np.empty(3), np.empty(3)
@@ -44,7 +44,7 @@ def count_passes(origins: Floats, ends: Floats, corner: Floats, cell: float, pas
         for a in range(3):
             u = (ends[n, a] - origins[n, a]) / length
             p = (origins[n, a] - corner[a]) / cell
-            at[a] = int(math.floor(p))
+            at[a] = math.floor(p)
             last[a] = passes.shape[a]
             step[a] = 1 if u >= 0.0 else -1
             if abs(u) < 1e-12:

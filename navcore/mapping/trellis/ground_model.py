@@ -23,8 +23,8 @@ class GroundParams:
 
     Attributes:
         cell: edge of a cell, m, 0.3 to 5.
-        low_share: the ground of a cell is this quantile of its points' heights, 0 to 0.5: below it lie echoes that came
-            too late.
+        low_share: the ground of a cell is this quantile of its points' heights, 0 to 0.5: below it lie echoes that
+            came too late.
         step: a cell whose ground lies further than this from its neighbours' median is none, m: a crown over ground
             that nobody saw.
         fewest: points that make a cell's ground.

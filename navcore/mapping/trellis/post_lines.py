@@ -82,7 +82,7 @@ def _at_row_spacing(across: float, known: Floats, params: PostLineParams) -> boo
 
 
 def _heading(points: Floats, params: PostLineParams) -> float | None:
-    """The direction, in [0, pi), that most pairs within reach have; None without any. The mean of the winning ones."""
+    """The direction, in [0, pi), that most pairs within reach have; None without any."""
     d = points[None] - points[:, None]
     far = np.hypot(d[..., 0], d[..., 1])
     i, j = np.nonzero(np.triu((far >= params.nearest) & (far <= params.furthest), 1))

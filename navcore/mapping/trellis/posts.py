@@ -25,8 +25,8 @@ class PostParams:
     Attributes:
         shafts: where one may stand. axis: how its axis is fitted. evidence: what rays say of it.
         persistence: share of the runs that reached a layer in which it must have stood there, 0 to 1.
-        shortest, tallest: heights of posts, m: trunks of a Y-trellis end at its fork (1 m in paper C's orchard), fences
-            below 1.7 m, and what goes on above the trellis (3 m) is a tree or a wall.
+        shortest, tallest: heights of posts, m: trunks of a Y-trellis end at its fork (1 m in paper C's orchard),
+            fences below 1.7 m, and what goes on above the trellis (3 m) is a tree or a wall.
         trunk: a trunk stands at least so high, m.
         alone: posts nearer to each other than this are pieces of one wall, m.
         gap: layers in between that no ray reached, at most.
@@ -101,7 +101,7 @@ def _alone(posts: list[Post], params: PostParams) -> tuple[Post, ...]:
     if not posts:
         return ()
     places = np.array([(post.x, post.y) for post in posts])
-    near = KDTree(places).query(places, k=2)[0][:, 1]
+    near = np.asarray(KDTree(places).query(places, k=2)[0])[:, 1]
     return tuple(
         p for p, apart in zip(posts, near, strict=True) if apart >= params.alone and p.height <= params.tallest
     )

@@ -23,12 +23,12 @@ class PublishedFilterParams:
     Attributes:
         sampled: share of the points kept by sampling, 0 to 1. seed: of the sampling.
         voxel: edge of a voxel whose points become their mean, m.
-        neighbours: of a point, whose mean distance is judged; sigmas: a point whose own is so many standard deviations
-            above the mean of all is an outlier.
+        neighbours: of a point, whose mean distance is judged; sigmas: a point whose own is so many standard
+            deviations above the mean of all is an outlier.
         low, high: band of heights above the ground that is kept, m: off with ground and canopy.
         beside: how far from a row's line points are kept, m.
-        joint, fewest: points nearer to each other than `joint`, m, seen from above, are one thing; one of fewer points
-            is none.
+        joint, fewest: points nearer to each other than `joint`, m, seen from above, are one thing; one of fewer
+            points is none.
     """
 
     sampled: float = 0.7
@@ -88,5 +88,5 @@ def _thinned(points: Floats, voxel: float) -> Floats:
 def _without_outliers(points: Floats, params: PublishedFilterParams) -> Floats:
     if len(points) <= params.neighbours:
         return points
-    distances = KDTree(points).query(points, k=params.neighbours + 1)[0][:, 1:].mean(axis=1)
+    distances = np.asarray(KDTree(points).query(points, k=params.neighbours + 1)[0])[:, 1:].mean(axis=1)
     return np.asarray(points[distances <= distances.mean() + params.sigmas * distances.std()])

@@ -38,8 +38,8 @@ def count_rays(
         steps = int((flat + met) / (CELL / 2)) + 1
         for step in range(steps):
             s0 = step * CELL / 2
-            column = int(math.floor((origins[n, 0] + s0 * ux - corner[0]) / CELL))
-            row = int(math.floor((origins[n, 1] + s0 * uy - corner[1]) / CELL))
+            column = math.floor((origins[n, 0] + s0 * ux - corner[0]) / CELL)
+            row = math.floor((origins[n, 1] + s0 * uy - corner[1]) / CELL)
             if column < 0 or row < 0 or column >= columns or row >= rows:
                 continue
             cell = row * columns + column
@@ -51,7 +51,7 @@ def count_rays(
                 s = (x - origins[n, 0]) * ux + (y - origins[n, 1]) * uy
                 if s < s0 or s >= s0 + CELL / 2:
                     continue
-                at = int(math.floor((origins[n, 2] + min(s, flat) * rise - floors[a] - bottom) / layer))
+                at = math.floor((origins[n, 2] + min(s, flat) * rise - floors[a] - bottom) / layer)
                 if at < 0 or at >= layers:
                     continue
                 off = abs((x - origins[n, 0]) * uy - (y - origins[n, 1]) * ux)

@@ -18,8 +18,8 @@ class SeenCloud:
 
     Attributes:
         points: (N, 3) in `map`, m, z up.
-        origins: (N, 3) where the sensor was that measured each, in `map`, m. None for a cloud whose rays nobody knows,
-            as of a file: then only hits count and nothing proves that a place is empty.
+        origins: (N, 3) where the sensor was that measured each, in `map`, m. None for a cloud whose rays nobody
+            knows, as of a file: then only hits count and nothing proves that a place is empty.
         name: of the run or the file, for people.
     """
 

@@ -87,10 +87,10 @@ def trellis_reference(
     tell("Following the wires")
     wires = _wires(posts, numbered, [above_ground(cloud, ground) for cloud in clouds], params.wires)
     kept = _cells(posts, clouds, params, tell) if cells and posts else None
+    in_lines = [places_of([uprights.posts[i] for i in line]) for line in lines]
     return TrellisReference(
         posts=posts, lines=numbered, families=_numbered([len(family) for family in families]),
-        trunks=_in_lines(uprights.trunks, [places_of([uprights.posts[i] for i in line]) for line in lines], params), wires=wires, cells=kept, ground=ground,
-        runs=len(clouds),
+        trunks=_in_lines(uprights.trunks, in_lines, params), wires=wires, cells=kept, ground=ground, runs=len(clouds),
     )  # fmt: skip
 
 
@@ -139,5 +139,5 @@ def _cells(
     tell("Comparing the runs cell by cell")
     places = np.array([(p.x, p.y, p.ground) for p in posts])
     low = places.min(axis=0) - (params.around, params.around, 0.3)
-    high = places.max(axis=0) + (params.around, params.around, params.above)
+    high = places.max(axis=0) + np.array((params.around, params.around, params.above))
     return persistent_cells(clouds, low, high, params.cells)

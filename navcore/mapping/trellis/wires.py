@@ -115,7 +115,7 @@ class _Span:
         y = d @ (-self._unit[1], self._unit[0])
         z = points[:, 2]
         inside = (x > p.ends) & (x < self.length - p.ends) & (np.abs(y) < p.beside) & (z > p.low) & (z < p.high)
-        return np.column_stack((x, y, z))[inside]
+        return np.asarray(np.column_stack((x, y, z))[inside])
 
     def picture(self, points: Floats) -> Floats:
         """Share of the pieces along the row hit in each cell of side and height and the eight around it."""
@@ -134,7 +134,7 @@ class _Span:
         p = self._params
         middle = np.array((cell[0] + 0.5, cell[1] + 0.5)) * p.cell + (-p.beside, p.low)
         points = np.concatenate(runs)
-        near = points[np.abs(points[:, 1:] - middle).max(axis=1) <= 2.0 * p.cell]
+        near: Floats = points[np.abs(points[:, 1:] - middle).max(axis=1) <= 2.0 * p.cell]
         A = np.column_stack((np.ones(len(near)), near[:, 0]))
         solution, off = _robust(A, near[:, 1:])
         if off is None:
@@ -153,15 +153,15 @@ class _Span:
 
 
 def _robust(A: Floats, b: Floats) -> tuple[Floats, float | None]:
-    """Line (2, 2) through points b (N, 2) over A (N, 2) by Huber's weights, and how far they lie off; None for few."""
-    solution = np.zeros((2, 2))
+    """Line (2, 2) through points b (N, 2) over A (N, 2) by Huber's weights, and their 1-sigma; None for few."""
+    solution: Floats = np.zeros((2, 2))
     if len(b) < 8:
         return solution, None
     weights = np.ones(len(b))
     off = np.zeros(len(b))
     for _ in range(5):
         scaled = A * weights[:, None]
-        solution = np.linalg.lstsq(scaled.T @ A, scaled.T @ b, rcond=None)[0]
+        solution = np.asarray(np.linalg.lstsq(scaled.T @ A, scaled.T @ b, rcond=None)[0])
         off = np.linalg.norm(b - A @ solution, axis=1)
         weights = np.minimum(1.0, 0.015 / np.maximum(off, 1e-9))
     return solution, float(np.median(off)) * 1.2 / np.sqrt(min(len(b), 30))
