@@ -9,7 +9,6 @@ from pathlib import Path
 from threading import Lock
 from typing import Any
 
-from backend.errors import NotFoundError
 from backend.import_jobs import ImportKind
 from backend.settings import Settings
 from backend.sites import SiteStore
@@ -34,13 +33,10 @@ class RowProposals:
         self._lock = Lock()
         self._found: dict[str, tuple[str, RowMap]] = {}
 
-    def get(self, site_id: str) -> tuple[str, RowMap]:
-        """Name of the file, and what was found in it. Raises NotFoundError."""
+    def get(self, site_id: str) -> tuple[str, RowMap] | None:
+        """Name of the file, and what was found in it; None if nothing waits."""
         with self._lock:
-            found = self._found.get(site_id)
-        if found is None:
-            raise NotFoundError("No rows are proposed for this farm. Choose a 3D map first.")
-        return found
+            return self._found.get(site_id)
 
     def forget(self, site_id: str) -> None:
         """It was accepted or thrown away; also right if there is none."""
@@ -71,8 +67,8 @@ def rows_in_a_map(name: str, datum: Datum) -> ImportKind:
 
     def command(source: Path, _: Path, settings: Settings) -> list[str]:
         return [
-            sys.executable, "-m", "backend.row_import", f"--lat-deg={datum.lat_deg!r}", f"--lon-deg={datum.lon_deg!r}",
-            f"--height-m={datum.height_m!r}", f"--memory-bytes={settings.map_memory_bytes}",
+            sys.executable, "-m", "backend.row_import", f"--lat-deg={datum.lat_deg!r}",
+            f"--lon-deg={datum.lon_deg!r}", f"--height-m={datum.height_m!r}", f"--memory-bytes={settings.map_memory_bytes}",
             f"--cpu-s={settings.import_cpu_s}", "--", str(source), name,
         ]  # fmt: skip
 

@@ -43,9 +43,12 @@ async def find_rows(
 
 
 @router.get("")
-def read_found_rows(station: TheStation, site_id: PathId) -> RowProposal:
-    """What was found last and is neither accepted nor thrown away; 404 if there is nothing."""
-    file_name, found = station.row_proposals.get(site_id)
+def read_found_rows(station: TheStation, site_id: PathId) -> RowProposal | None:
+    """What was found last and is neither accepted nor thrown away; null if there is nothing."""
+    proposal = station.row_proposals.get(site_id)
+    if proposal is None:
+        return None
+    file_name, found = proposal
     return RowProposal(
         file_name=file_name, rows=list(found.rows), lanes=list(found.lanes), zones=list(found.zones),
         plants=list(found.plants), notes=list(found.notes),
