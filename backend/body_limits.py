@@ -10,7 +10,8 @@ from backend.errors import body
 
 SMALL = 64 * 2**10
 DOCUMENT = 4 * 2**20  # a farm of 2000 rows and 20,000 plants is 2 MB
-UPLOADS = ("/api/orthophotos", "/orthophoto")  # limited by `backend.uploads` while they stream to disk
+UPLOADS = ("/api/orthophotos", "/orthophoto", "/found-rows")  # limited by `backend.uploads` while they stream to disk
+LANELETS = 64 * 2**20  # the same farm as Lanelet2 OSM is 20 MB
 DOCUMENTS = ("/api/sites", "/api/missions")
 
 
@@ -18,6 +19,8 @@ def limit_of(path: str) -> int | None:
     """Bytes that a body sent to `path` may have; None where the route limits it itself."""
     if path.endswith(UPLOADS):
         return None
+    if path == "/api/sites/import/osm":
+        return LANELETS
     return DOCUMENT if path.startswith(DOCUMENTS) else SMALL
 
 

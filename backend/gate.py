@@ -18,7 +18,7 @@ from backend.permissions import PERMISSIONS, Permission
 from backend.settings import LOOPBACK_HOSTS, Settings
 
 SAFE_METHODS = frozenset({"GET", "HEAD", "OPTIONS"})
-UPLOADS = ("/api/orthophotos", "/orthophoto")
+UPLOADS = ("/api/orthophotos", "/orthophoto", "/found-rows", "/import/osm")
 LOGIN_PAGE = """<!doctype html><html lang="en"><meta charset="utf-8"><title>Rowpilot</title>
 <body><h1>Please log in</h1><p>Open the address that the station printed in its terminal. It works once; after that
 this browser stays logged in.</p><p><a href="/">Try again</a></p></body></html>"""

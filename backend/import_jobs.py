@@ -9,8 +9,10 @@ import subprocess
 import sys
 from collections.abc import Callable
 from contextlib import suppress
+from dataclasses import dataclass
 from pathlib import Path
 from threading import Lock, Thread, Timer
+from typing import Any
 
 from backend.errors import NotFoundError, TooLargeError
 from backend.gdal_setup import DRIVERS_OFF, OPTIONS
@@ -18,12 +20,29 @@ from backend.ids import new_id
 from backend.orthophoto_import import BROKEN
 from backend.schemas import Job, JobState
 from backend.settings import Settings
-from navcore.errors import OrthophotoError, RowpilotError
+from navcore.errors import InputError, OrthophotoError, RowpilotError
 
 MOST_RUNNING = 2
 MOST_KEPT = 100
 OURS = "The import failed by an error of the station. Nothing was changed; the log of the station has the details."
-Finish = Callable[[Path, dict[str, object]], str]
+Finish = Callable[[Path, dict[str, Any]], str]
+Command = Callable[[Path, Path, Settings], list[str]]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ImportKind:
+    """What a job does with its file.
+
+    Attributes:
+        command: of its process, from the file, the target and the settings.
+        error: what a sentence of the process is raised as. broken: what is said of a process that died. done: at the
+            end.
+    """
+
+    command: Command
+    error: type[InputError]
+    broken: str
+    done: str
 
 
 class ImportJobs:
@@ -43,10 +62,10 @@ class ImportJobs:
             raise NotFoundError("There is no such import. It may be from before the station was started again.")
         return job
 
-    def start(self, source: Path, finish: Finish) -> str:
-        """Import an uploaded file, which is deleted whatever happens.
+    def start(self, source: Path, finish: Finish, kind: ImportKind | None = None) -> str:
+        """Import an uploaded file, which is deleted whatever happens; an orthophoto if no other kind is given.
 
-        `finish` gets the finished picture and its facts, makes or changes the site, and returns the site's id.
+        `finish` gets the target and what the process told of it, makes or changes the site, and returns its id.
         """
         job = Job(id=new_id(), state=JobState.RUNNING, progress=0.0, message="Waiting to begin", site_id=None)
         with self._lock:
@@ -55,7 +74,9 @@ class ImportJobs:
                 raise TooLargeError("Other imports are running. Wait for them to finish, then try again.")
             self._jobs[job.id] = job
             self._forget_oldest()
-        Thread(target=self._run, args=(job.id, source, finish), name="import", daemon=True).start()
+        Thread(
+            target=self._run, args=(job.id, source, finish, kind or ORTHOPHOTO), name="import", daemon=True
+        ).start()
         return job.id
 
     def _forget_oldest(self) -> None:
@@ -67,10 +88,10 @@ class ImportJobs:
         with self._lock:
             self._jobs[job_id] = self._jobs[job_id].model_copy(update=changes)
 
-    def _run(self, job_id: str, source: Path, finish: Finish) -> None:
+    def _run(self, job_id: str, source: Path, finish: Finish, kind: ImportKind) -> None:
         target = source.with_suffix(".tif")
         try:
-            facts = self._import(job_id, source, target)
+            facts = self._import(job_id, source, target, kind)
             site_id = finish(target, facts)
         except RowpilotError as error:
             self._change(job_id, state=JobState.FAILED, message=str(error))
@@ -78,15 +99,15 @@ class ImportJobs:
             self._change(job_id, state=JobState.FAILED, message=OURS)
             raise
         else:
-            self._change(job_id, state=JobState.DONE, progress=1.0, message="Imported", site_id=site_id)
+            self._change(job_id, state=JobState.DONE, progress=1.0, message=kind.done, site_id=site_id)
         finally:
             source.unlink(missing_ok=True)
             target.unlink(missing_ok=True)
 
-    def _import(self, job_id: str, source: Path, target: Path) -> dict[str, object]:
-        """Run the process to its end. Raises OrthophotoError with its sentence."""
+    def _import(self, job_id: str, source: Path, target: Path, kind: ImportKind) -> dict[str, Any]:
+        """Run the process to its end. Raises the kind's error with its sentence."""
         with subprocess.Popen(
-            command(source, target, self._settings),
+            kind.command(source, target, self._settings),
             stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL,
@@ -96,23 +117,23 @@ class ImportJobs:
             alarm = Timer(self._settings.import_wall_s, process.kill)
             alarm.start()
             try:
-                return self._follow(job_id, process)
+                return self._follow(job_id, process, kind)
             finally:
                 alarm.cancel()
                 process.kill()
                 self._processes.discard(process)
 
-    def _follow(self, job_id: str, process: subprocess.Popen[bytes]) -> dict[str, object]:
+    def _follow(self, job_id: str, process: subprocess.Popen[bytes], kind: ImportKind) -> dict[str, Any]:
         assert process.stdout is not None
         for line in process.stdout:
             told = json.loads(line)
             if "error" in told:
-                raise OrthophotoError(told["error"])
+                raise kind.error(told["error"])
             if "done" in told:
-                facts: dict[str, object] = told["done"]
+                facts: dict[str, Any] = told["done"]
                 return facts
             self._change(job_id, progress=told["progress"], message=told["message"])
-        raise OrthophotoError(f"{BROKEN} The import needed too much time or memory, or the picture broke its reader.")
+        raise kind.error(kind.broken)
 
     def close(self) -> None:
         """End all imports; their files go with them, or at the next start."""
@@ -133,6 +154,14 @@ def command(source: Path, target: Path, settings: Settings) -> list[str]:
         f"--memory-bytes={settings.import_memory_bytes}",
         f"--cpu-s={settings.import_cpu_s}",
     ]
+
+
+ORTHOPHOTO = ImportKind(
+    command=command,
+    error=OrthophotoError,
+    broken=f"{BROKEN} The import needed too much time or memory, or the picture broke its reader.",
+    done="Imported",
+)
 
 
 def environment() -> dict[str, str]:

@@ -16,11 +16,13 @@ from backend.headers import SecurityHeaders
 from backend.routes import (
     calibration,
     frontend,
+    lanelets,
     live,
     maps3d,
     missions,
     orthophotos,
     robot,
+    rows,
     runs,
     scene,
     session,
@@ -33,6 +35,8 @@ from backend.station import Station, open_station
 ROOMS = (
     session,
     sites,
+    lanelets,
+    rows,
     trunks,
     maps3d,
     orthophotos,

@@ -45,9 +45,10 @@ class Settings(BaseSettings):
         simulated: the robot is the simulator.
         scene: run the 3D view.
         scene_port: its loopback port; chosen at start if None.
-        upload_limit_bytes: largest orthophoto file that is taken.
+        upload_limit_bytes: largest file that is taken.
         decoded_limit_bytes: largest orthophoto, decoded.
         import_memory_bytes, import_cpu_s, import_wall_s: limits of the import process.
+        map_memory_bytes: limit of the process that looks for rows in a 3D map.
         keep_free_bytes: disk space that uploads leave free.
         session_idle_s, session_absolute_s: a login ends after that much silence, and after that time anyway.
         operator_timeout_s: a browser whose heartbeat is older no longer counts as an operator.
@@ -71,6 +72,7 @@ class Settings(BaseSettings):
     import_memory_bytes: int = Field(default=2 * 2**30, gt=0)
     import_cpu_s: int = Field(default=1800, gt=0)
     import_wall_s: int = Field(default=3600, gt=0)
+    map_memory_bytes: int = Field(default=6 * 2**30, gt=0)
     keep_free_bytes: int = Field(default=2**30, ge=0)
     session_idle_s: int = Field(default=12 * 3600, gt=0)
     session_absolute_s: int = Field(default=7 * 24 * 3600, gt=0)

@@ -27,6 +27,7 @@ from backend.picture_sites import PictureSites
 from backend.picture_store import PictureStore
 from backend.recorder import RecorderClient
 from backend.robot import RobotView
+from backend.row_proposals import RowProposals
 from backend.run_end import RunEnd
 from backend.run_mapper import RunMapper
 from backend.run_starter import RunStarter
@@ -56,6 +57,7 @@ class Station:
     jobs: ImportJobs
     pictures: PictureStore
     picture_sites: PictureSites
+    row_proposals: RowProposals
     hub: Hub
     robot: RobotView
     starter: RunStarter
@@ -121,6 +123,7 @@ def open_station(settings: Settings) -> Station:
         jobs=jobs,
         pictures=pictures,
         picture_sites=PictureSites(sites, pictures),
+        row_proposals=RowProposals(sites),
         hub=hub,
         robot=robot,
         starter=RunStarter(settings, database, runs, audit, navigator, recorder, robot),

@@ -26,6 +26,7 @@ from backend.schemas.missions import (
     RowMissionRequest,
 )
 from backend.schemas.robot import Robot, RobotSite
+from backend.schemas.rows import RowProposal
 from backend.schemas.runs import LogFormat, RunDetail, RunDocument, RunEventDocument, RunOutcome, RunTrack
 from backend.schemas.session import Invitation, SessionDocument
 from backend.schemas.sites import ImportedSite, OrthophotoInfo, SiteCreate, SiteDocument, SiteEdit, SiteSummary
@@ -63,6 +64,7 @@ __all__ = [
     "Robot",
     "RobotSite",
     "RowMissionRequest",
+    "RowProposal",
     "RunDetail",
     "RunDocument",
     "RunEventDocument",

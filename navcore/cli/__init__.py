@@ -20,6 +20,7 @@ from navcore.cli import (
     see,
     train,
     trunks,
+    vectormap,
 )
 from navcore.cli.bench import bench_app
 from navcore.cli.calibrate import calibrate_app
@@ -46,6 +47,7 @@ trunks.register(app)
 register.register(app)
 odometry.register(app)
 map_run.register(app)
+vectormap.register(app)
 
 
 @app.callback()

@@ -57,7 +57,7 @@ def feature_of(
     geometry: str, points: tuple[Point, ...], frame: EnuFrame, properties: dict[str, Any]
 ) -> dict[str, Any]:
     """A GeoJSON feature of points in `map`. Rings are closed and run counter-clockwise, as RFC 7946 wants."""
-    positions = [_to_position(p, frame) for p in points]
+    positions = [position_of(p, frame) for p in points]
     coordinates: list[Any] = positions
     if geometry == "Point":
         coordinates = positions[0]
@@ -73,8 +73,10 @@ def _is_counter_clockwise(points: tuple[Point, ...]) -> bool:
     return bool((p[:, 0] * q[:, 1] - q[:, 0] * p[:, 1]).sum() > 0.0)
 
 
-def _to_position(point: Point, frame: EnuFrame) -> list[float]:
-    """At the datum's ellipsoidal height, where `import_site` takes it: the ellipsoid leaves the tangent plane."""
+def position_of(point: Point, frame: EnuFrame) -> list[float]:
+    """Longitude and latitude, deg, at the datum's ellipsoidal height, where `import_site` takes it: the ellipsoid
+    leaves the tangent plane.
+    """
     up = 0.0
     for _ in range(3):
         lat, lon, height = frame.to_geodetic(point[0], point[1], up)

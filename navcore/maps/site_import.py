@@ -22,6 +22,8 @@ _GEOMETRY = {
     "keep_out": "Polygon", "headland": "Polygon",
 }  # fmt: skip
 _MEMBER = "rowpilot"
+# What a vector map says beyond the site: it follows from the site and is made anew.
+DERIVED = ("u_turn", "road_edge", "dtlane", "node")
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,7 +43,7 @@ def import_site(document: object, *, datum: Datum | None = None) -> ImportedSite
     Raises SiteError with every problem at once; then nothing is imported.
     """
     problems = Problems()
-    features = read_features(document, problems)
+    features = _drawn(read_features(document, problems), problems)
     if not features and not problems.found:
         problems.add("The file holds no features.")
     origin = datum or _datum(document, features, problems)
@@ -53,6 +55,17 @@ def import_site(document: object, *, datum: Datum | None = None) -> ImportedSite
     if datum is None and "datum" not in _member(document):
         problems.notes.append(_place(origin))
     return ImportedSite(site, tuple(problems.notes))
+
+
+def _drawn(features: list[ReadFeature], problems: Problems) -> list[ReadFeature]:
+    """Without what a vector map derives from the rest."""
+    drawn = [feature for feature in features if feature.properties.get("kind") not in DERIVED]
+    if len(drawn) < len(features):
+        problems.notes.append(
+            f"{len(features) - len(drawn)} features of a vector map (turns, edges, courses) are not taken over: they "
+            "follow from the rows and lanes."
+        )
+    return drawn
 
 
 def _place(datum: Datum) -> str:

@@ -2,7 +2,7 @@
 import { keepPreviousData, queryOptions } from "@tanstack/react-query";
 
 import { get, post } from "./client";
-import type { CalibrationDocument, Job, Map3d, Mission, MissionDocument, Preview, Robot, RunDetail, RunDocument, RunMap3d, RunTrack, SiteDocument, SiteSummary, TrunkMap, VersionDocument } from "./types";
+import type { CalibrationDocument, Job, Map3d, Mission, MissionDocument, Preview, Robot, RowProposal, RunDetail, RunDocument, RunMap3d, RunTrack, SiteDocument, SiteSummary, TrunkMap, VersionDocument } from "./types";
 
 export const sitesQuery = queryOptions({ queryKey: ["sites"], queryFn: ({ signal }) => get<SiteSummary[]>("/api/sites", signal) });
 
@@ -26,6 +26,13 @@ export const trunksQuery = (siteId: string) =>
     queryKey: ["trunks", siteId],
     queryFn: ({ signal }) => get<TrunkMap>(`/api/sites/${siteId}/trunks`, signal),
     refetchInterval: 30_000,
+  });
+
+/** What was found in a 3D map and waits to be accepted; null if nothing waits. */
+export const rowProposalQuery = (siteId: string) =>
+  queryOptions({
+    queryKey: ["found-rows", siteId],
+    queryFn: ({ signal }) => get<RowProposal | null>(`/api/sites/${siteId}/found-rows`, signal),
   });
 
 /** The plan that would be driven. `revision` makes a changed site count as a changed question. */

@@ -620,6 +620,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/sites/import/osm": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Import Osm
+         * @description A new site from Lanelet2 OSM (the body is the file), with what was noticed on the way.
+         */
+        post: operations["import_osm_api_sites_import_osm_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/sites/{site_id}": {
         parameters: {
             query?: never;
@@ -643,6 +663,34 @@ export interface paths {
          * @description Delete a site, its missions, its picture and its 3D maps. Runs stay.
          */
         delete: operations["delete_site_api_sites__site_id__delete"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{site_id}/found-rows": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Found Rows
+         * @description What was found last and is neither accepted nor thrown away; null if there is nothing.
+         */
+        get: operations["read_found_rows_api_sites__site_id__found_rows_get"];
+        put?: never;
+        /**
+         * Find Rows
+         * @description Look for rows in a 3D map (the body is the file); what is found waits as a proposal.
+         */
+        post: operations["find_rows_api_sites__site_id__found_rows_post"];
+        /**
+         * Forget Found Rows
+         * @description The proposal was accepted or thrown away.
+         */
+        delete: operations["forget_found_rows_api_sites__site_id__found_rows_delete"];
         options?: never;
         head?: never;
         patch?: never;
@@ -806,6 +854,26 @@ export interface paths {
          * @description Import a GeoTIFF (the body is the file) as the ground of a site that is there already.
          */
         post: operations["upload_for_site_api_sites__site_id__orthophoto_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{site_id}/osm": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Export Osm
+         * @description The site as Lanelet2 OSM, with the turns that its headlands allow this robot.
+         */
+        get: operations["export_osm_api_sites__site_id__osm_get"];
+        put?: never;
+        post?: never;
         delete?: never;
         options?: never;
         head?: never;
@@ -2476,6 +2544,24 @@ export interface components {
             valid: boolean;
             /** Width */
             width?: number | null;
+        };
+        /**
+         * RowProposal
+         * @description What would be added to a site. Ids are free in the site as it was stored; `notes` are for the operator.
+         */
+        RowProposal: {
+            /** File Name */
+            file_name: string;
+            /** Lanes */
+            lanes: components["schemas"]["Lane"][];
+            /** Notes */
+            notes: string[];
+            /** Plants */
+            plants: components["schemas"]["Plant"][];
+            /** Rows */
+            rows: components["schemas"]["Row"][];
+            /** Zones */
+            zones: components["schemas"]["Zone"][];
         };
         /**
          * RowSource
@@ -4361,6 +4447,39 @@ export interface operations {
             };
         };
     };
+    import_osm_api_sites_import_osm_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/octet-stream": string;
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ImportedSite"];
+                };
+            };
+            /** @description Any error */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorDocument"];
+                };
+            };
+        };
+    };
     read_site_api_sites__site_id__get: {
         parameters: {
             query?: never;
@@ -4428,6 +4547,104 @@ export interface operations {
         };
     };
     delete_site_api_sites__site_id__delete: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                site_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description Any error */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorDocument"];
+                };
+            };
+        };
+    };
+    read_found_rows_api_sites__site_id__found_rows_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                site_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RowProposal"] | null;
+                };
+            };
+            /** @description Any error */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorDocument"];
+                };
+            };
+        };
+    };
+    find_rows_api_sites__site_id__found_rows_post: {
+        parameters: {
+            query: {
+                /** @description Name of the file; its ending tells its form */
+                name: string;
+            };
+            header?: never;
+            path: {
+                site_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/octet-stream": string;
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            202: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["JobStarted"];
+                };
+            };
+            /** @description Any error */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorDocument"];
+                };
+            };
+        };
+    };
+    forget_found_rows_api_sites__site_id__found_rows_delete: {
         parameters: {
             query?: never;
             header?: never;
@@ -4745,6 +4962,37 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["JobStarted"];
+                };
+            };
+            /** @description Any error */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorDocument"];
+                };
+            };
+        };
+    };
+    export_osm_api_sites__site_id__osm_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                site_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/xml": unknown;
                 };
             };
             /** @description Any error */

@@ -39,6 +39,7 @@ export type Preview = S["Preview"];
 export type Robot = S["Robot"];
 export type Row = S["Row"];
 export type RowExit = S["RowExit"];
+export type RowProposal = S["RowProposal"];
 export type RowVisit = S["RowVisit"];
 export type RunDetail = S["RunDetail"];
 export type RunDocument = S["RunDocument"];

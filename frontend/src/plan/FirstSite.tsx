@@ -2,13 +2,14 @@ import { Group } from "@mantine/core";
 import { IconMapPinPlus } from "@tabler/icons-react";
 
 import { EmptyState } from "../ui/EmptyState";
-import { PhotoButton, SiteFileButton } from "./imports/ImportButtons";
+import { LaneletButton, PhotoButton, SiteFileButton } from "./imports/ImportButtons";
 
 export function FirstSite() {
   const actions = (
     <Group justify="center">
       <PhotoButton path="/api/orthophotos" word="Import an orthophoto (GeoTIFF)" />
       <SiteFileButton word="Import GeoJSON" />
+      <LaneletButton word="Import Lanelet2 (OSM)" />
     </Group>
   );
   return (

@@ -1,6 +1,8 @@
 import { SegmentedControl } from "@mantine/core";
+import { useQuery } from "@tanstack/react-query";
 import { useCallback, useState } from "react";
 
+import { rowProposalQuery } from "../api/queries";
 import type { Point, SiteDocument } from "../api/types";
 import { FitTo } from "../map/FitTo";
 import { MapView } from "../map/MapView";
@@ -22,6 +24,7 @@ import { MissionLayer } from "./mission/MissionLayer";
 import { MissionPanel } from "./mission/MissionPanel";
 import { useMissionDraft } from "./mission/useMissionDraft";
 import css from "./plan.module.css";
+import { ProposalLayer } from "./proposal/ProposalLayer";
 import { useSiteEditor } from "./useSiteEditor";
 
 type Tab = "farm" | "missions";
@@ -39,6 +42,7 @@ export function Workshop({ document, onReload }: { document: SiteDocument; onRel
   const [tool, setTool] = useState<Tool>("select");
   const [selected, setSelected] = useState<ItemRef | null>(null);
   const draft = useMissionDraft(document);
+  const found = useQuery(rowProposalQuery(document.id)).data ?? null;
   const { site, commit } = editing;
   const extent = useCallback(() => firstExtent(site, document.orthophoto, frame), [site, document.orthophoto, frame]);
   const onDrawn = (with_: Tool, points: Point[]) => {
@@ -56,6 +60,7 @@ export function Workshop({ document, onReload }: { document: SiteDocument; onRel
         {tab === "farm" ? (
           <>
             <EditLayer site={site} frame={frame} tool={tool} selected={selected} onSelect={setSelected} onDrawn={onDrawn} onReshaped={(ref, points) => commit(reshape(site, ref, points))} onCancel={() => setTool("select")} />
+            {found && <ProposalLayer site={site} found={found} frame={frame} />}
             <Toolbar tool={tool} onTool={setTool} onUndo={editing.undo} onRedo={editing.redo} />
           </>
         ) : (
@@ -71,7 +76,7 @@ export function Workshop({ document, onReload }: { document: SiteDocument; onRel
         <SaveNotice editing={editing} siteId={document.id} onReload={onReload} />
         <SegmentedControl fullWidth size="lg" value={tab} onChange={(value) => setTab(value as Tab)} data={TABS} />
         {tab === "farm" ? (
-          <FarmPanel document={document} editing={editing} selected={selected} onSelect={setSelected} />
+          <FarmPanel document={document} editing={editing} found={found} selected={selected} onSelect={setSelected} />
         ) : (
           <MissionPanel document={document} site={site} draft={draft} />
         )}

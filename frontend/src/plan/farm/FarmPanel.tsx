@@ -1,13 +1,15 @@
 import { TextInput } from "@mantine/core";
 import { useEffect, useRef, useState } from "react";
 
-import type { SiteDocument, SiteMap } from "../../api/types";
+import type { RowProposal, SiteDocument, SiteMap } from "../../api/types";
 import { type ItemRef, WAREHOUSE, sameItem } from "../../map/siteFeatures";
 import { distance, length } from "../../geo/measure";
 import { Card } from "../../ui/Card";
 import { metres } from "../../ui/format";
 import { PhotoButton } from "../imports/ImportButtons";
 import css from "../plan.module.css";
+import { MapRowsButton } from "../proposal/MapRowsButton";
+import { ProposalCard } from "../proposal/ProposalCard";
 import type { SiteEditing } from "../useSiteEditor";
 import { ItemPanel } from "./ItemPanel";
 import { nextStep } from "./nextStep";
@@ -15,11 +17,13 @@ import { nextStep } from "./nextStep";
 interface Props {
   document: SiteDocument;
   editing: SiteEditing;
+  /** Found in a 3D map, and not accepted yet. */
+  found: RowProposal | null;
   selected: ItemRef | null;
   onSelect: (ref: ItemRef | null) => void;
 }
 
-export function FarmPanel({ document, editing, selected, onSelect }: Props) {
+export function FarmPanel({ document, editing, found, selected, onSelect }: Props) {
   const { site, commit } = editing;
   const step = nextStep(site);
   const top = useRef<HTMLDivElement>(null);
@@ -34,6 +38,7 @@ export function FarmPanel({ document, editing, selected, onSelect }: Props) {
   }, [picked]);
   return (
     <div className={css.stack} ref={top}>
+      {found && <ProposalCard siteId={document.id} found={found} editing={editing} />}
       {selected && <ItemPanel site={site} selected={selected} onCommit={commit} onSelect={onSelect} />}
       {step && <Card title="Next step">{step}</Card>}
       <Card title="This farm">
@@ -46,6 +51,7 @@ export function FarmPanel({ document, editing, selected, onSelect }: Props) {
           ) : (
             <PhotoButton path={`/api/sites/${document.id}/orthophoto`} word="Add an orthophoto" />
           )}
+          <MapRowsButton siteId={document.id} />
         </div>
       </Card>
       <Card title="Drawn">

@@ -1,6 +1,6 @@
 import { Modal, Stack } from "@mantine/core";
 
-import { PhotoButton, SiteFileButton } from "../imports/ImportButtons";
+import { LaneletButton, PhotoButton, SiteFileButton } from "../imports/ImportButtons";
 
 export function NewSite({ opened, onClose }: { opened: boolean; onClose: () => void }) {
   return (
@@ -8,6 +8,7 @@ export function NewSite({ opened, onClose }: { opened: boolean; onClose: () => v
       <Stack>
         <PhotoButton path="/api/orthophotos" word="From an orthophoto (GeoTIFF)" />
         <SiteFileButton word="From GeoJSON" />
+        <LaneletButton word="From Lanelet2 (OSM)" />
       </Stack>
     </Modal>
   );

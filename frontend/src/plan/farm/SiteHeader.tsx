@@ -29,6 +29,9 @@ export function SiteHeader({ document, editing }: { document: SiteDocument; edit
           <Menu.Item component="a" href={`/api/sites/${document.id}/geojson`} download>
             Export as GeoJSON
           </Menu.Item>
+          <Menu.Item component="a" href={`/api/sites/${document.id}/osm`} download>
+            Export as Lanelet2 (OSM)
+          </Menu.Item>
           <Menu.Item color="red" onClick={() => setDialog("delete")}>
             Delete this farm …
           </Menu.Item>

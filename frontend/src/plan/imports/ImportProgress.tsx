@@ -11,7 +11,7 @@ import { Reasons } from "../../ui/Reasons";
 
 const ALL = 100;
 
-/** First the way of the file to the station, then the making of its tiles. */
+/** First the way of the file to the station, then what is made of it. */
 export function ImportProgress({ file, path, onClose }: { file: File; path: string; onClose: () => void }) {
   const { jobId, sent, error } = useUpload(file, path);
   const job = useQuery(jobQuery(jobId)).data;
@@ -66,6 +66,7 @@ function useArrival(siteId: string | null | undefined, onClose: () => void): voi
     if (!siteId) return;
     void client.invalidateQueries({ queryKey: ["sites"] });
     void client.invalidateQueries({ queryKey: ["site", siteId] });
+    void client.invalidateQueries({ queryKey: ["found-rows", siteId] });
     go(`/plan/${siteId}`);
     onClose();
   }, [siteId]);

@@ -1,0 +1,47 @@
+"""Sites as Lanelet2 OSM: import and export."""
+
+from __future__ import annotations
+
+from fastapi import APIRouter, Request, Response
+from fastapi.concurrency import run_in_threadpool
+
+from backend.deps import ERRORS, PathId, TheLogin, TheStation
+from backend.drawn import check_site
+from backend.schemas import ImportedSite
+from backend.station import Station
+from navcore.mapping.row_map.u_turns import u_turns
+from navcore.maps.vector_map.from_site import vector_map_of
+from navcore.maps.vector_map.lanelet_export import vector_map_to_osm
+from navcore.maps.vector_map.lanelet_import import import_lanelets
+from navcore.maps.vector_map.to_site import site_of
+
+router = APIRouter(prefix="/api/sites", tags=["sites"], responses=ERRORS)
+MEDIA_TYPE = "application/xml"
+FILE = {
+    "requestBody": {
+        "required": True,
+        "content": {"application/octet-stream": {"schema": {"type": "string", "format": "binary"}}},
+    }
+}
+
+
+@router.post("/import/osm", status_code=201, openapi_extra=FILE)
+async def import_osm(station: TheStation, login: TheLogin, request: Request) -> ImportedSite:
+    """A new site from Lanelet2 OSM (the body is the file), with what was noticed on the way."""
+    data = await request.body()
+    return await run_in_threadpool(_import, station, data)
+
+
+@router.get("/{site_id}/osm", response_class=Response, responses={200: {"content": {MEDIA_TYPE: {}}}})
+def export_osm(station: TheStation, site_id: PathId) -> Response:
+    """The site as Lanelet2 OSM, with the turns that its headlands allow this robot."""
+    site = station.sites.get(site_id).site
+    data = vector_map_to_osm(vector_map_of(site, u_turns(site, station.vehicle)))
+    disposition = f'attachment; filename="site-{site_id}.osm"'
+    return Response(data, media_type=MEDIA_TYPE, headers={"Content-Disposition": disposition})
+
+
+def _import(station: Station, data: bytes) -> ImportedSite:
+    imported = import_lanelets(data)
+    document = station.sites.create(check_site(site_of(imported.vector_map)))
+    return ImportedSite(**document.model_dump(exclude={"site"}), site=document.site, notes=list(imported.notes))

@@ -1,0 +1,1 @@
+"""Rows, headlands, lanes and turns found in a 3D map."""

@@ -1,0 +1,114 @@
+"""Lines of posts: parallel families of straight lines, each block's its own."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from navcore.maps.plant_lines import along, robust_line
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PostLineParams:
+    """Parameters of `post_lines`.
+
+    Attributes:
+        nearest, furthest: distances between neighbouring posts of a line, m.
+        parallel_deg: lines of a family differ by less in direction, deg.
+        off: a post stands no further from its line than this, m.
+        fewest: posts that make a line.
+        break_at: a gap of so many times the line's usual spacing ends it, and another block begins.
+    """
+
+    nearest: float = 2.0
+    furthest: float = 15.0
+    parallel_deg: float = 4.0
+    off: float = 0.4
+    fewest: int = 3
+    break_at: float = 3.5
+
+
+def post_lines(places: Floats, params: PostLineParams = PostLineParams()) -> tuple[tuple[Ints, ...], ...]:
+    """Families of parallel lines of posts at places (P, 2), m: of each line its posts' indices in the order along it.
+
+    The direction that joins most posts into lines comes first, and so on with those left. Lines of a family come side
+    by side, each in the same sense.
+    """
+    left = np.arange(len(places))
+    families: list[tuple[Ints, ...]] = []
+    while len(left) >= params.fewest:
+        family = _family(places, left, params)
+        if not family:
+            break
+        families.append(tuple(family))
+        left = np.setdiff1d(left, np.concatenate(family))
+    return tuple(families)
+
+
+def _family(places: Floats, left: Ints, params: PostLineParams) -> list[Ints]:
+    """The lines of the direction that most pairs of neighbours have."""
+    heading = _heading(places[left], params)
+    if heading is None:
+        return []
+    unit, normal = (math.cos(heading), math.sin(heading)), (-math.sin(heading), math.cos(heading))
+    across = places[left] @ normal
+    order = np.argsort(across, kind="stable")
+    cuts = np.nonzero(np.diff(across[order]) > params.off)[0] + 1
+    groups = [left[part] for part in np.split(order, cuts)]
+    found = [line for group in groups for line in _straight(places, group, unit, params, params.fewest)]
+    known = np.array([(places[line] @ normal).mean() for line in found])
+    lines = [
+        (float((places[line] @ normal).mean()), line)
+        for group in groups
+        for line in _straight(places, group, unit, params, 2)
+        if len(line) >= params.fewest or _at_row_spacing(float((places[line] @ normal).mean()), known, params)
+    ]
+    return [line for _, line in sorted(lines, key=lambda item: item[0])]
+
+
+def _at_row_spacing(across: float, known: Floats, params: PostLineParams) -> bool:
+    """Whether two posts that are left of a line stand where the other lines' even spacing has one."""
+    spacings = np.diff(np.unique(np.round(known, 1)))
+    if len(spacings) < 2 or spacings.min() < params.nearest:
+        return False
+    steps = (across - known) / float(spacings.min())
+    return bool(np.abs(steps - np.round(steps)).max() * spacings.min() <= params.off)
+
+
+def _heading(points: Floats, params: PostLineParams) -> float | None:
+    """The direction, in [0, pi), that most pairs within reach have; None without any."""
+    d = points[None] - points[:, None]
+    far = np.hypot(d[..., 0], d[..., 1])
+    i, j = np.nonzero(np.triu((far >= params.nearest) & (far <= params.furthest), 1))
+    if not len(i):
+        return None
+    angles = np.arctan2(d[i, j, 1], d[i, j, 0]) % math.pi
+    bins = round(180.0 / params.parallel_deg * 2)
+    votes = np.bincount((angles / math.pi * bins).astype(np.int64) % bins, 1.0 / far[i, j], minlength=bins)
+    best = (int(np.argmax(votes + np.roll(votes, 1) + np.roll(votes, -1))) + 0.5) * math.pi / bins
+    off = (angles - best + math.pi / 2) % math.pi - math.pi / 2
+    near = np.abs(off) <= math.radians(params.parallel_deg)
+    # Long baselines tell a direction better than short ones.
+    return float((best + np.average(off[near], weights=far[i, j][near] ** 2)) % math.pi)
+
+
+def _straight(
+    places: Floats, group: Ints, unit: tuple[float, float], params: PostLineParams, fewest: int
+) -> list[Ints]:
+    """The line through most of a group, cut where posts are far apart; nothing for too few."""
+    if len(group) < fewest:
+        return []
+    ordered = group[np.argsort(places[group] @ unit, kind="stable")]
+    line = robust_line(places[ordered])
+    kept = ordered[np.abs(line.distances(places[ordered])) <= params.off]
+    gaps = np.diff(np.abs(along(line, places[kept]) - along(line, places[kept])[0]))
+    if not len(gaps) or np.median(gaps) < params.nearest:
+        return []
+    cuts = np.nonzero(gaps > params.break_at * float(np.median(gaps)))[0] + 1
+    return [part for part in np.split(kept, cuts) if len(part) >= fewest]
