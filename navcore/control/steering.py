@@ -13,11 +13,13 @@ class Motion:
     """How the robot moves now, in the driving frame: `v` along x (m/s) and true turn rate `omega` (rad/s).
 
     `drift` is the direction in which it goes while it points straight ahead, rad: a side slope pulls it down.
+    `wheel_omega` is the turn rate that the wheels tell by their nominal track, rad/s, None where they tell nothing.
     """
 
     v: float
     omega: float
     drift: float = 0.0
+    wheel_omega: float | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -41,6 +43,10 @@ class Steering:
 
 class Controller(Protocol):
     """Follows a target line."""
+
+    @property
+    def turn_gain(self) -> float:
+        """Share of a commanded turn rate that it believes to reach the ground."""
 
     def steer(self, target: TargetLine, motion: Motion, *, v: float, look_ahead: float, now_ns: int) -> Steering:
         """Command for this tick at the wanted speed `v` >= 0."""

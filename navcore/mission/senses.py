@@ -71,6 +71,11 @@ class Senses:
         return self.filter.drift(self.attitude.land_roll(self.T_odom_base.yaw))
 
     @property
+    def wheel_omega(self) -> float | None:
+        """Turn rate that the wheels tell, rad/s: on a skid-steered robot more than it turns."""
+        return None if self.chassis is None else self.chassis.omega
+
+    @property
     def T_map_base(self) -> SE2 | None:
         """The filter's pose, None before it has one."""
         return SE2(self.pose.x, self.pose.y, self.pose.yaw) if self.pose else None
