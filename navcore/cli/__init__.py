@@ -4,7 +4,20 @@ from __future__ import annotations
 
 import typer
 
-from navcore.cli import dataset, decode_rplidar, evaluate, export, replay, report, run, score, see, train, trunks
+from navcore.cli import (
+    bench_tracking,
+    dataset,
+    decode_rplidar,
+    evaluate,
+    export,
+    replay,
+    report,
+    run,
+    score,
+    see,
+    train,
+    trunks,
+)
 from navcore.cli.bench import bench_app
 from navcore.cli.calibrate import calibrate_app
 from navcore.cli.decode import decode_app
@@ -12,6 +25,7 @@ from navcore.cli.decode import decode_app
 app = typer.Typer(
     name="rowpilot", help="Onboard operator station for orchard and vineyard robots.", no_args_is_help=True
 )
+bench_tracking.register(bench_app)
 app.add_typer(bench_app, name="bench")
 app.add_typer(calibrate_app, name="calibrate")
 decode_rplidar.register(decode_app)

@@ -13,8 +13,8 @@ from navcore.control.target_line import TargetLine
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ChordPursuitParams:
     """Attributes:
-    chord: m, length L of the chord over which the heading is to change, > 0. Not published; the wheelbase is meant
-        where this law steers a car. On a straight line the look-ahead is so much longer that it does not matter.
+    chord: m, way L to the next position, over which the heading is to change, > 0. Not published; the wheelbase,
+        which stands there where this law steers a car. Against look-aheads of metres it hardly matters.
     max_turn_rate: rad/s (the chassis' own limit).
     """
 

@@ -13,6 +13,9 @@ from navcore.control.target_line import TargetLine
 from navcore.control.turn_slip import TurnSlip, TurnSlipParams
 from navcore.geometry.angles import wrap
 
+# A chassis that answers within one tick, s.
+NO_LAG = 0.02
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LqrTrackerParams:
@@ -21,14 +24,15 @@ class LqrTrackerParams:
     capture_angle: rad, steepest approach to the line.
     turn_reserve: share of the possible turn rate that an approach may plan to use for straightening up.
     slowest: m/s; below it the feedback fades with the speed, so that a robot at rest is not turned.
-    dead_time_known, push_known: false to do without, for the benchmark's ablations.
+    delay_known, push_known: false to do without what is known of dead time and lag, or of what pushes the robot
+        round, for the benchmark's ablations.
     """
 
     max_turn_rate: float = 0.75
     capture_angle: float = math.radians(50.0)
     turn_reserve: float = 0.8
     slowest: float = 0.15
-    dead_time_known: bool = True
+    delay_known: bool = True
     push_known: bool = True
     lqr: LateralLqrParams = field(default_factory=LateralLqrParams)
     slip: TurnSlipParams = field(default_factory=TurnSlipParams)
@@ -45,11 +49,12 @@ class LqrTracker:
     def __init__(
         self, params: LqrTrackerParams = LqrTrackerParams(), actuator: ActuatorParams = ActuatorParams()
     ) -> None:
-        self._params, self._actuator = params, actuator
+        self._params = params
         self._history = CommandHistory(actuator)
         self._slip = TurnSlip(params.slip, actuator)
         self._drift = SideDrift(params.drift)
-        self._lqr = LateralLqr(params.lqr)
+        self._dead_time, self._lag = (actuator.dead_time, actuator.lag) if params.delay_known else (0.0, NO_LAG)
+        self._lqr = LateralLqr(params.lqr, self._lag)
 
     @property
     def turn_gain(self) -> float:
@@ -78,9 +83,8 @@ class LqrTracker:
 
     def _predict(self, motion: Motion, now_ns: int) -> Predicted:
         """Pose when the command begins to act, and the wheels' share of the turn rate then."""
-        horizon = self._actuator.dead_time if self._params.dead_time_known else 0.0
         by_wheels = Motion(v=motion.v, omega=motion.omega - self._push)
-        return self._history.predict_pushed(now_ns, by_wheels, self.turn_gain, horizon, self._push)
+        return self._history.predict_pushed(now_ns, by_wheels, self.turn_gain, self._dead_time, self._push)
 
     def _turn_rate(self, target: TargetLine, then: Predicted, drift: float, v: float) -> float:
         """Wanted of the wheels, on the ground, rad/s."""
@@ -89,10 +93,10 @@ class LqrTracker:
         heading_error = wrap(pose.yaw + drift - hit.heading)
         carried = v * math.cos(heading_error) / max(1.0 - target.path.curvature_at(hit.s) * hit.lateral, 0.3)
         line_now = carried * target.path.curvature_at(hit.s)
-        line_soon = carried * target.path.curvature_at(hit.s + v * self._params.lqr.lag)
-        wanted_heading = self._approach(hit.lateral, v, k)
-        feedback = k.heading * math.sin(wrap(wanted_heading - heading_error)) - k.turn * (then.motion.omega - line_now)
-        return line_soon + min(v / self._params.slowest, 1.0) * (feedback - k.push * self._push)
+        line_soon = carried * target.path.curvature_at(hit.s + v * self._lag)
+        turn = wrap(self._approach(hit.lateral, v, k) - heading_error)
+        feedback = k.heading * math.sin(turn) - k.turn * (then.motion.omega - line_now) - k.push * self._push
+        return line_soon + min(v / self._params.slowest, 1.0) * feedback
 
     def _approach(self, lateral: float, v: float, k: LateralGains) -> float:
         """Wanted heading error, bounded by what turn rate can straighten up within the rest of the offset."""

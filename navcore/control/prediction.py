@@ -75,9 +75,9 @@ class CommandHistory:
     def predict_pushed(
         self, now_ns: int, by_wheels: Motion, turn_gain: float, horizon: float, push: float
     ) -> Predicted:
-        """The same where the ground adds the turn rate `push` (rad/s) to the wheels' own, which is all that comes back.
+        """The same where the ground adds the turn rate `push` (rad/s) to that by the wheels; a horizon of 0 is now.
 
-        A horizon of 0 is now.
+        The turn rate of the motion then is the wheels' share alone.
         """
         if horizon <= 0.0:
             return Predicted(T_now_then=SE2(), motion=by_wheels)

@@ -62,7 +62,7 @@ class TrackingParams:
         name: which of them drives.
     """
 
-    name: TrackerName = TrackerName.LINE
+    name: TrackerName = TrackerName.LQR
     chord: ChordPursuitParams = field(default_factory=ChordPursuitParams)
     published_look_ahead: PublishedLookAheadParams = field(default_factory=PublishedLookAheadParams)
     adaptive_look_ahead: AdaptiveLookAheadParams = field(default_factory=AdaptiveLookAheadParams)
