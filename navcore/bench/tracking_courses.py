@@ -23,7 +23,7 @@ LENGTH_M = 40.0
 RUN_IN_M, RUN_OUT_M = 5.0, 1.0
 # Tightest curvature of the bent row, 1/m: an S that swings by 3 m to one side.
 _BEND = 1.0 / 15.0
-# Of the rows between which the robot turns, m: two neighbours of our vineyards, where the turn is one half circle.
+# Of the rows between which the robot turns, m: neighbours in a vineyard. The planner joins them by its tightest arcs.
 _SPACING_M = 3.0
 # In the rows before and after the turn, m.
 _ROW_M = 8.0

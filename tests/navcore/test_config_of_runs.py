@@ -1,4 +1,4 @@
-"""Which controller drives: chosen in the settings, refused by name, and as it was in runs of before there was a choice."""
+"""Which controller drives: chosen by name, and in runs of before there was a choice the one that drove them."""
 
 from __future__ import annotations
 

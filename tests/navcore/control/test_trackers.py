@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from navcore.control.line_tracker import LineTrackerParams
@@ -58,6 +58,7 @@ def test_on_the_line_nothing_is_steered(name: TrackerName, v: float) -> None:
 
 
 @every
+@settings(deadline=None)
 @given(st.floats(-1.0, 1.0), st.floats(-1.0, 1.0), st.floats(0.1, 1.5), st.floats(-0.4, 0.4))
 def test_a_mirrored_error_is_answered_by_the_mirrored_command(
     name: TrackerName, lateral: float, heading: float, v: float, omega: float
@@ -68,6 +69,7 @@ def test_a_mirrored_error_is_answered_by_the_mirrored_command(
 
 
 @every
+@settings(deadline=None)
 @given(st.floats(-5.0, 5.0), st.floats(-math.pi, math.pi), st.floats(0.0, 2.0), st.floats(-1.5, 1.5))
 def test_the_limit_of_the_turn_rate_is_kept_and_the_speed_is_as_asked(
     name: TrackerName, lateral: float, heading: float, v: float, omega: float
