@@ -72,7 +72,8 @@ class LqrTracker:
         self._slip.update(now_ns, motion, self._history)
         self._drift.update(now_ns, target, motion)
         then = self._predict(motion, now_ns)
-        omega = self._turn_rate(target, then, motion.drift + self._drift.angle, then.motion.v if v > 0.0 else 0.0)
+        moving = max(then.motion.v, 0.0) if v > 0.0 else 0.0
+        omega = self._turn_rate(target, then, motion.drift + self._drift.angle, moving)
         steering = self._command(omega, v)
         self._history.add(now_ns, steering.v, steering.omega)
         return steering

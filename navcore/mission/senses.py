@@ -72,8 +72,9 @@ class Senses:
 
     @property
     def wheel_omega(self) -> float | None:
-        """Turn rate that the wheels tell, rad/s: on a skid-steered robot more than it turns."""
-        return None if self.chassis is None else self.chassis.omega
+        """Turn rate that the wheels tell, rad/s: more than a skid-steered robot turns. None if they tell none."""
+        c = self.chassis
+        return c.omega if c is not None and math.isfinite(c.omega) else None
 
     @property
     def T_map_base(self) -> SE2 | None:
