@@ -5,11 +5,13 @@ from __future__ import annotations
 import dataclasses
 import tomllib
 from dataclasses import dataclass, field
+from enum import StrEnum
 from pathlib import Path
 from typing import Any, get_type_hints
 
 import msgspec
 
+from navcore.control.tracking import TrackerName
 from navcore.drivers.camera_capture import CameraParams
 from navcore.drivers.lidar3d.lidar3d_params import Lidar3dParams
 from navcore.drivers.rplidar.lidar_params import LidarParams
@@ -93,6 +95,19 @@ def config_from_tree(tree: dict[str, Any]) -> RobotConfig:
         raise ConfigError(f"The settings are not usable: {error}") from error
 
 
+def config_of_run(tree: dict[str, Any]) -> RobotConfig:
+    """Settings that a run was driven with, from its log: a choice that it did not know yet was made as of then.
+
+    Raises ConfigError as `config_from_tree`.
+    """
+    navigator = tree.get("navigator", {}) if isinstance(tree, dict) else None
+    driver = navigator.get("driver", {}) if isinstance(navigator, dict) else None
+    if not isinstance(driver, dict) or "tracking" in driver:
+        return config_from_tree(tree)
+    then = {**driver, "tracking": {"name": TrackerName.LINE.value}}
+    return config_from_tree({**tree, "navigator": {**navigator, "driver": then}})
+
+
 def config_to_tree(config: RobotConfig) -> dict[str, Any]:
     """Plain data for the run's log."""
     tree: dict[str, Any] = msgspec.to_builtins(config)
@@ -106,5 +121,12 @@ def _refuse_unknown(tree: Any, cls: type, where: str) -> None:
     for key, value in tree.items():
         if key not in types:
             raise ConfigError(f"Unknown setting '{where}{key}'. Known are: {', '.join(types)}.")
+        _refuse_unnamed(value, types[key], f"{where}{key}")
         if dataclasses.is_dataclass(types[key]) and isinstance(types[key], type):
             _refuse_unknown(value, types[key], f"{where}{key}.")
+
+
+def _refuse_unnamed(value: Any, kind: Any, where: str) -> None:
+    """A choice by name must name one of the choices."""
+    if isinstance(kind, type) and issubclass(kind, StrEnum) and value not in list(kind):
+        raise ConfigError(f"There is no '{value}' for '{where}'. Known are: {', '.join(kind)}.")

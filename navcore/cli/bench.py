@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from navcore.cli.figure_lines import lines as _lines
+from navcore.cli.figure_lines import report as _report
+
 if TYPE_CHECKING:
-    from navcore.bench.figure import Figure
     from navcore.bench.loop import LoopParams
     from navcore.bench.mission_result import MissionResult
 
@@ -192,26 +194,3 @@ def _blemish(result: MissionResult) -> str:
         return ""
     found = [*result.evaluation.contacts, *(f"wrong row {row}" for row in result.evaluation.wrong_rows)]
     return f" ({', '.join(found)})" if found else ""
-
-
-def _report(figures: tuple[Figure, ...], commit: str, machine: str) -> str:
-    import dataclasses
-    import json
-
-    rows = [{**dataclasses.asdict(figure), "commit": commit, "machine": machine} for figure in figures]
-    return json.dumps(rows, indent=1, allow_nan=False)
-
-
-def _lines(figures: tuple[Figure, ...], commit: str, machine: str) -> str:
-    return "\n".join([f"commit {commit}, {machine}", "", *(_row(figure) for figure in figures if not figure.detail)])
-
-
-def _row(f: Figure) -> str:
-    value = "-" if f.value is None else f"{f.value:.3f}"
-    interval = "" if f.low is None or f.high is None else f" [{f.low:.3f}, {f.high:.3f}]"
-    asides = [
-        f"{name} {number:g}" for name, number in (("paper", f.paper), ("baseline", f.baseline), ("target", f.target))
-        if number is not None
-    ]  # fmt: skip
-    verdict = "" if f.ok is None else "ok" if f.ok else "MISSED"
-    return f"{f.figure:<60} {value + interval:>24} {f.unit:<6} n={f.n:<4} {', '.join(asides):<36} {verdict}"

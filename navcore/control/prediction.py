@@ -69,6 +69,26 @@ class CommandHistory:
 
         `turn_gain` is the share of a commanded turn rate that reaches the ground.
         """
+        arcs, then = self._arcs(now_ns, motion, turn_gain, horizon)
+        return Predicted(T_now_then=SE2.along_arcs(arcs), motion=then)
+
+    def predict_pushed(
+        self, now_ns: int, by_wheels: Motion, turn_gain: float, horizon: float, push: float
+    ) -> Predicted:
+        """The same where the ground adds the turn rate `push` (rad/s) to that by the wheels; a horizon of 0 is now.
+
+        The turn rate of the motion then is the wheels' share alone.
+        """
+        if horizon <= 0.0:
+            return Predicted(T_now_then=SE2(), motion=by_wheels)
+        arcs, then = self._arcs(now_ns, by_wheels, turn_gain, horizon)
+        turned = push * horizon / len(arcs)
+        return Predicted(T_now_then=SE2.along_arcs([(way, turn + turned) for way, turn in arcs]), motion=then)
+
+    def _arcs(
+        self, now_ns: int, motion: Motion, turn_gain: float, horizon: float
+    ) -> tuple[list[tuple[float, float]], Motion]:
+        """(Way, m; turn, rad) of each step, and the motion after the last."""
         v, omega = motion.v, motion.omega
         arcs: list[tuple[float, float]] = []
         steps = max(round(horizon / self._params.step), 1)
@@ -80,4 +100,4 @@ class CommandHistory:
             omega_next = turn_gain * told[1] + (omega - turn_gain * told[1]) * keep
             arcs.append((0.5 * (v + v_next) * dt, 0.5 * (omega + omega_next) * dt))
             v, omega = v_next, omega_next
-        return Predicted(T_now_then=SE2.along_arcs(arcs), motion=Motion(v=v, omega=omega))
+        return arcs, Motion(v=v, omega=omega)

@@ -59,6 +59,8 @@ class PurePursuit:
     It knows no delay, no slip, no curvature; the benchmarks run it beside `LineTracker`.
     """
 
+    turn_gain = 1.0
+
     def __init__(self, params: PurePursuitParams = PurePursuitParams()) -> None:
         self._params = params
 

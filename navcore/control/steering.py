@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import isfinite
 from typing import Protocol
 
 from navcore.control.target_line import TargetLine
+from navcore.errors import NotFiniteError
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -13,11 +15,19 @@ class Motion:
     """How the robot moves now, in the driving frame: `v` along x (m/s) and true turn rate `omega` (rad/s).
 
     `drift` is the direction in which it goes while it points straight ahead, rad: a side slope pulls it down.
+    `wheel_omega` is the turn rate that the wheels tell by their nominal track, rad/s, None where they tell nothing.
+
+    Raises NotFiniteError for what is no number.
     """
 
     v: float
     omega: float
     drift: float = 0.0
+    wheel_omega: float | None = None
+
+    def __post_init__(self) -> None:
+        if not all(map(isfinite, (self.v, self.omega, self.drift, self.wheel_omega or 0.0))):
+            raise NotFiniteError("A robot's motion must be finite numbers.")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -30,6 +40,8 @@ class Steering:
         curvature: of the wanted motion, 1/m, before limits and slip correction.
         turn_gain: share of a commanded turn rate that the ground is believed to give.
         saturated: the limit on omega was reached.
+
+    Raises NotFiniteError for a command that is no number.
     """
 
     v: float
@@ -38,9 +50,17 @@ class Steering:
     turn_gain: float
     saturated: bool
 
+    def __post_init__(self) -> None:
+        if not (isfinite(self.v) and isfinite(self.omega)):
+            raise NotFiniteError("A command must be finite numbers: the wanted speed or the look-ahead was none.")
+
 
 class Controller(Protocol):
     """Follows a target line."""
+
+    @property
+    def turn_gain(self) -> float:
+        """Share of a commanded turn rate that it believes to reach the ground."""
 
     def steer(self, target: TargetLine, motion: Motion, *, v: float, look_ahead: float, now_ns: int) -> Steering:
         """Command for this tick at the wanted speed `v` >= 0."""

@@ -53,14 +53,17 @@ class TargetLine:
 
 
 def target_from_path(
-    path: Polyline, T_map_driving: SE2, *, source: str, stamp_ns: int, max_age_ns: int, near_s: float | None = None
-) -> TargetLine:
+    path: Polyline, T_map_driving: SE2, *, source: str, stamp_ns: int, max_age_ns: int, near_s: float | None = None,
+    ahead: float = AHEAD,
+) -> TargetLine:  # fmt: skip
     """Target of a path in `map` for a robot at `T_map_driving`; `near_s` as in `Polyline.project`.
+
+    `ahead`: so much of the path is handed over beyond the robot, m.
 
     Past the path's end the line goes on straight. Raises NotFiniteError for a pose that is no number.
     """
     hit = path.project(T_map_driving.x, T_map_driving.y, near_s)
-    s0, s1 = hit.s - BEHIND, hit.s + hit.beyond + AHEAD
+    s0, s1 = hit.s - BEHIND, hit.s + hit.beyond + ahead
     if s0 > 0.0 and s1 < path.length:
         seen = path.seen_from(T_map_driving, s0, s1)
         s = hit.s - path.vertex_before(s0)

@@ -44,6 +44,11 @@ class TurnResponse:
         p = self._params
         return min(max(self._measured_expected / self._expected_squared, p.lowest), p.highest)
 
+    @property
+    def expected(self) -> float:
+        """Turn rate of a robot without slip at the last tick, rad/s."""
+        return self._expected
+
     def standstill(self) -> None:
         """The wheels have stopped; what was learnt of the ground stays."""
         self._expected, self._last_ns = 0.0, -1
@@ -57,6 +62,13 @@ class TurnResponse:
             return
         self._expected = told[1] + (self._expected - told[1]) * exp(-dt / self._actuator.lag)
         if abs(self._expected) > self._params.least_turn:
+            self._learn(measured, dt)
+
+    def compare(self, now_ns: int, measured: float, expected: float) -> None:
+        """One tick: the true turn rate (gyro) beside the one that the wheels tell, rad/s."""
+        dt = min((now_ns - self._last_ns) * 1e-9, 0.2) if self._last_ns >= 0 else 0.0
+        self._last_ns, self._expected = now_ns, expected
+        if dt > 0.0 and abs(expected) > self._params.least_turn:
             self._learn(measured, dt)
 
     def _learn(self, measured: float, dt: float) -> None:

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from navcore.control.line_tracker import LineTracker, LineTrackerParams
-from navcore.control.look_ahead import LookAheadParams, gnss_look_ahead, row_look_ahead
+from navcore.control.line_tracker import LineTrackerParams
+from navcore.control.look_ahead import LookAheadParams
 from navcore.control.prediction import ActuatorParams
 from navcore.control.speed_regulation import SpeedLimit, SpeedRegulation, SpeedRegulationParams, tightest
 from navcore.control.steering import Motion, Steering
 from navcore.control.stop_zones import StopZoneParams, StopZones
 from navcore.control.target_line import TargetLine, target_from_path
+from navcore.control.tracking import TrackingParams, Way, new_tracking
 from navcore.geometry.se2 import SE2
 from navcore.messages import MissionPlan, NavMode, Point, PoseEstimate, SegmentKind
 from navcore.mission.mode_selector import CARRIED, ON_CAMERA
@@ -33,6 +34,7 @@ class DriverParams:
         entry: speed before the row's entrance and at its end, m/s.
         gnss_age_s, row_age_s, map_age_s, chassis_age_s: how long each input may be driven on, s; the shortest of
             those that were used bounds the command's deadline.
+        tracking: which controller follows the line, and those that are not `tracker`, today's.
     """
 
     slow: float = 0.3
@@ -43,6 +45,7 @@ class DriverParams:
     chassis_age_s: float = 0.2
     look_ahead: LookAheadParams = field(default_factory=LookAheadParams)
     tracker: LineTrackerParams = field(default_factory=LineTrackerParams)
+    tracking: TrackingParams = field(default_factory=TrackingParams)
     actuator: ActuatorParams = field(default_factory=ActuatorParams)
     speed: SpeedRegulationParams = field(default_factory=SpeedRegulationParams)
     zones: StopZoneParams = field(default_factory=StopZoneParams)
@@ -74,7 +77,8 @@ class Driver:
 
     def __init__(self, params: DriverParams, vehicle: VehicleParams) -> None:
         self.params, self.vehicle = params, vehicle
-        self.controller = LineTracker(params.tracker, params.actuator)
+        self.tracking = new_tracking(params.tracking, params.tracker, params.look_ahead, params.actuator)
+        self.controller = self.tracking.controller
         self.regulation = SpeedRegulation(params.speed, max_acceleration=vehicle.max_acceleration)
         self._leg = 0
         self._zones = self._new_zones((), ())
@@ -107,7 +111,7 @@ class Driver:
         zone = self._zone_limit(pilot.pose, pose)
         limit = self._speed(target, pilot, now_ns, (*limits, *self._mode_limits(pilot), zone))
         sign = -1.0 if pilot.leg.reverse else 1.0
-        motion = Motion(v=sign * pose.v, omega=pose.omega, drift=sign * senses.drift)
+        motion = Motion(v=sign * pose.v, omega=pose.omega, drift=sign * senses.drift, wheel_omega=senses.wheel_omega)
         steering = self._steer(target, pilot, motion, limit.speed, now_ns)
         return Driving(
             v=sign * steering.v,
@@ -137,6 +141,7 @@ class Driver:
             stamp_ns=now_ns,
             max_age_ns=deadline_ns - now_ns,
             near_s=pilot.place.s,
+            ahead=self.tracking.sight,
         )
 
     def _deadline_ns(self, pilot: Pilot, senses: Senses) -> int:
@@ -173,7 +178,13 @@ class Driver:
         """In the driving frame; a leg driven backwards only turns the sign of v."""
         by_map = pilot.mode is NavMode.MAP and pilot.segment.kind is SegmentKind.ROW
         in_row = pilot.mode in ON_CAMERA or pilot.before_seen_row or by_map
-        look_ahead = (
-            row_look_ahead(speed, self.params.look_ahead) if in_row else gnss_look_ahead(self.params.look_ahead)
+        way = Way(
+            v=speed, curvature=target.curvature_ahead(0.0), in_row=in_row, room=self._room(pilot) if in_row else None
         )
+        look_ahead = self.tracking.look_ahead(way)
         return self.controller.steer(target, motion, v=speed, look_ahead=look_ahead, now_ns=now_ns)
+
+    def _room(self, pilot: Pilot) -> float | None:
+        """Free on either side of the body in the row that matters here, m."""
+        row = pilot.row_segment()
+        return (row.width - self.vehicle.width) / 2 if row is not None else None

@@ -78,6 +78,12 @@ class Senses:
         return self.filter.drift(self.attitude.land_roll(self.T_odom_base.yaw))
 
     @property
+    def wheel_omega(self) -> float | None:
+        """Turn rate that the wheels tell, rad/s: more than a skid-steered robot turns. None if they tell none."""
+        c = self.chassis
+        return c.omega if c is not None and math.isfinite(c.omega) else None
+
+    @property
     def T_map_base(self) -> SE2 | None:
         """The filter's pose, None before it has one."""
         return SE2(self.pose.x, self.pose.y, self.pose.yaw) if self.pose else None

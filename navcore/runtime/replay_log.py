@@ -6,7 +6,7 @@ from pathlib import Path
 
 import msgspec
 
-from navcore.config import RobotConfig, config_from_tree
+from navcore.config import RobotConfig, config_of_run
 from navcore.errors import LogError
 from navcore.maps.site_map import Datum
 from navcore.recording.reader import read_decisions, read_inputs, read_prelude
@@ -26,6 +26,6 @@ def replay_log(path: Path, config: RobotConfig | None = None) -> ReplayResult:
             f"{path.name} does not hold all that the navigator knew before the run. It cannot be replayed."
         )
     lat_deg, lon_deg, height_m = prelude.datum
-    own = config_from_tree(msgspec.json.decode(prelude.config))
+    own = config_of_run(msgspec.json.decode(prelude.config))
     datum = Datum(lat_deg=lat_deg, lon_deg=lon_deg, height_m=height_m)
     return replay(config or own, datum, read_inputs(path), read_decisions(path), prelude.inputs)

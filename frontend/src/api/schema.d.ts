@@ -1494,6 +1494,29 @@ export interface components {
             value: number;
         };
         /**
+         * Ghost
+         * @description Where one source alone puts `base_link` in `map` now, m and rad, and how far that is from the driven pose, m.
+         *
+         *     Odometry's is carried from where the mission began; rows know where the robot is across them, not along.
+         */
+        Ghost: {
+            /** Apart */
+            apart: number;
+            source: components["schemas"]["GhostSource"];
+            /** X */
+            x: number;
+            /** Y */
+            y: number;
+            /** Yaw */
+            yaw: number;
+        };
+        /**
+         * GhostSource
+         * @description Who alone would put the robot where.
+         * @enum {string}
+         */
+        GhostSource: "gnss" | "odometry" | "rows" | "map";
+        /**
          * GnssFix
          * @description One epoch of a receiver.
          *
@@ -1744,6 +1767,7 @@ export interface components {
             "calibration/view": components["schemas"]["CalibrationView"] | null;
             "camera/view": components["schemas"]["CameraView"] | null;
             "gnss/fix": components["schemas"]["GnssFix"] | null;
+            "lidar3d/match": components["schemas"]["MapMatch"] | null;
             "nav/plan": components["schemas"]["MissionPlan"] | null;
             "nav/status": components["schemas"]["NavStatus"] | null;
             "nav/switch": components["schemas"]["ModeSwitch"] | null;
@@ -1818,6 +1842,100 @@ export interface components {
             progress: number;
             state: components["schemas"]["JobState"];
         };
+        /**
+         * MapMatch
+         * @description One cloud on the map of cells. All but `stamp_ns`, `state` and `reason` is of the newest match that there was.
+         *
+         *     Attributes:
+         *         stamp_ns: capture of the cloud's last point.
+         *         reason: a sentence's part that says why it is not MATCHED, else empty.
+         *         x, y, z, roll, pitch, yaw: `base_link` in `map`, m and rad.
+         *         covariance: of (x, y, yaw), row-major 9 numbers.
+         *         score: 0 to 1, how well the points fit the cells; a high one does not prove the place.
+         *         rival: score of the best other place that was tried, 0 to 1.
+         *         points: number of points that were matched. latency_ms: from capture to publication.
+         */
+        MapMatch: {
+            /**
+             * Covariance
+             * @default [
+             *       0,
+             *       0,
+             *       0,
+             *       0,
+             *       0,
+             *       0,
+             *       0,
+             *       0,
+             *       0
+             *     ]
+             */
+            covariance: number[];
+            /**
+             * Latency Ms
+             * @default 0
+             */
+            latency_ms: number;
+            /**
+             * Pitch
+             * @default 0
+             */
+            pitch: number;
+            /**
+             * Points
+             * @default 0
+             */
+            points: number;
+            /**
+             * Reason
+             * @default
+             */
+            reason: string;
+            /**
+             * Rival
+             * @default 0
+             */
+            rival: number;
+            /**
+             * Roll
+             * @default 0
+             */
+            roll: number;
+            /**
+             * Score
+             * @default 0
+             */
+            score: number;
+            /** Stamp Ns */
+            stamp_ns: number;
+            state: components["schemas"]["MatchState"];
+            /**
+             * X
+             * @default 0
+             */
+            x: number;
+            /**
+             * Y
+             * @default 0
+             */
+            y: number;
+            /**
+             * Yaw
+             * @default 0
+             */
+            yaw: number;
+            /**
+             * Z
+             * @default 0
+             */
+            z: number;
+        };
+        /**
+         * MatchState
+         * @description MATCHED is evidence; every other says why there is none.
+         * @enum {string}
+         */
+        MatchState: "matched" | "starting" | "ambiguous" | "lost" | "no_map";
         /**
          * Mission
          * @description Warehouse -> outbound waypoints -> rows -> inbound waypoints -> warehouse.
@@ -1964,7 +2082,7 @@ export interface components {
          * @description Which source the robot is driving on.
          * @enum {string}
          */
-        NavMode: "idle" | "gnss_path" | "row_entry" | "row" | "row_end" | "headland";
+        NavMode: "idle" | "gnss_path" | "row_entry" | "row" | "row_end" | "headland" | "map";
         /**
          * NavStatus
          * @description What the operator sees of the navigator, 20 Hz.
@@ -1980,6 +2098,7 @@ export interface components {
          *         camera: how the camera that saw a row last is mounted; None before. camera_roll: it leans by so much to the
          *             right against the IMU, and its 1-sigma, rad.
          *         trunk: that comes next; None outside rows and where no trunk is known.
+         *         ghosts: what each source says alone, on a robot with a 3D LiDAR.
          */
         NavStatus: {
             /** Battery V */
@@ -1992,6 +2111,11 @@ export interface components {
             ] | null;
             /** Events */
             events: components["schemas"]["ActiveEvent"][];
+            /**
+             * Ghosts
+             * @default []
+             */
+            ghosts: components["schemas"]["Ghost"][];
             /** Gnss Age S */
             gnss_age_s: number | null;
             gnss_pose?: components["schemas"]["PoseEstimate"] | null;

@@ -20,6 +20,8 @@ function drivingWords(status: NavStatus, names?: ReadonlyMap<string, string>): s
       return `In ${row} on the camera`;
     case "row_end":
       return `At the end of ${row}`;
+    case "map":
+      return `Driving on the 3D map — ±${accuracy(positionSigma(status.gnss_pose?.covariance))}`;
     case "headland":
       return "Turning on the headland";
     default:

@@ -10,6 +10,7 @@ export const MODE_WORDS: Record<NavMode, string> = {
   row: "In the row on the camera",
   row_end: "At the row's end",
   headland: "On the headland",
+  map: "On the 3D map",
 };
 
 export const MODE_COLORS: Record<NavMode, string> = {
@@ -19,6 +20,7 @@ export const MODE_COLORS: Record<NavMode, string> = {
   row: "#2f9e44",
   row_end: "#0ca678",
   headland: "#9c36b5",
+  map: "#1098ad",
 };
 
 export const SEGMENT_WORDS: Record<SegmentKind, string> = {

@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from navcore.control.line_tracker import LineTracker
 from navcore.control.speed_regulation import SpeedRegulation
 from navcore.control.steering import Controller, Motion
 from navcore.control.target_line import target_from_path
@@ -93,7 +92,7 @@ class Estimator:
         late = round(self._u.gnss_latency / dt)
         if self._fixes and self._fixes[0][0] + late <= self._tick:
             self._correct(*self._fixes.pop(0))
-        return Motion(v=plant.wheel_v, omega=omega)
+        return Motion(v=plant.wheel_v, omega=omega, wheel_omega=plant.wheel_omega)
 
     def _correct(self, tick: int, fix: SE2) -> None:
         then = self._past[tick]
@@ -130,16 +129,16 @@ class Drive:
 def drive(
     course: Polyline, controller: Controller, *, seed: int, v: float = 0.8, look_ahead: float = 1.2,
     start_offset: float = 1.1, unkind: Unkind = Unkind(), measured_on: Polyline | None = None,
-    hold_speed: bool = False, drift: float = 0.0,
+    hold_speed: bool = False, drift: float = 0.0, start_heading: float = 0.0,
 ) -> Drive:  # fmt: skip
-    """Follow a course from standstill `start_offset` metres left of its first point.
+    """Follow a course from standstill `start_offset` metres left of its first point, turned by `start_heading` rad.
 
     `hold_speed` drives at `v` throughout, as the paper did; else the speed is regulated. `drift` is what the
     controller is told of the creep, rad.
     """
     rng = np.random.default_rng(seed)
     heading = course.heading_at(0.0)
-    start = SE2(*course.at(0.0), heading) @ SE2(0.0, start_offset, 0.0)
+    start = SE2(*course.at(0.0), heading) @ SE2(0.0, start_offset, start_heading)
     plant, estimator = Plant(start, unkind, rng), Estimator(start, unkind, rng)
     rows: list[tuple[float, ...]] = []
     regulation = SpeedRegulation()
@@ -152,9 +151,8 @@ def drive(
         )
         assert target.remaining is not None
         near_s = course.length - max(target.remaining, 0.0)
-        gain = controller.turn_gain if isinstance(controller, LineTracker) else 1.0
         limit = regulation.regulate(
-            target, wanted=v, now_ns=now_ns, turn_gain=gain, lateral_std=0.02, capturing=true_s < 10.0
+            target, wanted=v, now_ns=now_ns, turn_gain=controller.turn_gain, lateral_std=0.02, capturing=true_s < 10.0
         )
         speed = v if hold_speed else limit.speed
         told = replace(motion, drift=drift)
