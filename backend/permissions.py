@@ -47,6 +47,8 @@ PERMISSIONS: dict[str, Permission] = {
     "POST /api/runs/{run_id}/map3d": LOGIN,
     "DELETE /api/runs/{run_id}/map3d/job": LOGIN,
     "GET /api/sites/{site_id}/maps3d": LOGIN,
+    "GET /api/sites/{site_id}/map3d/in_use": LOGIN,
+    "PUT /api/sites/{site_id}/map3d/in_use": LOGIN,
     "DELETE /api/sites/{site_id}/maps3d/{run_id}": LOGIN,
     "GET /api/sites/{site_id}/maps3d/{run_id}/files/{name}": LOGIN,
     "POST /api/orthophotos": LOGIN,

@@ -65,7 +65,7 @@ def main() -> None:
         while not ended:
             show_newest(subscriber, view)
             if (shown := farm.news()) is not None:
-                view.show_farm(shown.site, shown.trunks)
+                view.show_farm(shown.site, shown.trunks, shown.cells)
     supervisor.close()
     server.stop()
 

@@ -6,6 +6,7 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
+from backend.scene_cells import Cells, read_cells
 from backend.shown_trunks import shown_file
 from backend.supervisor import SupervisorClient
 from navcore.errors import InputError
@@ -22,6 +23,7 @@ class ShownFarm:
 
     site: SiteMap
     trunks: TrunkMap
+    cells: Cells | None
 
 
 class FarmWatch:
@@ -31,7 +33,7 @@ class FarmWatch:
         self._supervisor = supervisor
         self._site_dir = site_dir
         self._asked_s = float("-inf")
-        self._shown: tuple[str, int, int] | None = None
+        self._shown: tuple[object, ...] | None = None
 
     def news(self) -> ShownFarm | None:
         """The farm, once when it or its trunks are new or were loaded again; else None."""
@@ -45,8 +47,9 @@ class FarmWatch:
 
     def _read(self, site_id: str) -> ShownFarm | None:
         path, trunks = self._site_dir / f"{site_id}.json", shown_file(self._site_dir, site_id)
+        map3d = self._site_dir / f"{site_id}.ndt"
         try:
-            found = (site_id, path.stat().st_mtime_ns, trunks.stat().st_mtime_ns if trunks.exists() else 0)
+            found = (site_id, path.stat().st_mtime_ns, _changed_ns(trunks), _changed_ns(map3d))
             if found == self._shown:
                 return None
             site = decode(SiteMap, path.read_bytes())
@@ -54,4 +57,8 @@ class FarmWatch:
         except (OSError, InputError):  # without a farm the robot is still worth seeing
             return None
         self._shown = found
-        return ShownFarm(site, known)
+        return ShownFarm(site, known, read_cells(map3d) if map3d.exists() else None)
+
+
+def _changed_ns(path: Path) -> int:
+    return path.stat().st_mtime_ns if path.exists() else 0

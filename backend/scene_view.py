@@ -10,19 +10,36 @@ import numpy as np
 from numpy.typing import NDArray
 from viser import ViserServer
 
+from backend.scene_cells import Cells, show_cells
 from backend.scene_site import show_site
 from backend.scene_trunks import show_trunks, unmapped
 from navcore.geometry.geodesy import EnuFrame
 from navcore.geometry.se2 import SE2
 from navcore.maps.site_map import SiteMap
 from navcore.maps.trunk_map import TrunkMap
-from navcore.messages import CameraName, GnssFix, MissionPlan, NavStatus, PoseEstimate, RowObservation, SimTruth
+from navcore.messages import (
+    CameraName,
+    Ghost,
+    GhostSource,
+    GnssFix,
+    MissionPlan,
+    NavStatus,
+    PoseEstimate,
+    RowObservation,
+    SimTruth,
+)
 from navcore.vehicle import VehicleParams
 
 Floats = NDArray[np.float32]
 GREEN, ORANGE, BLUE, GREY, RED, VIOLET = (
     (38, 140, 76), (235, 130, 30), (40, 110, 220), (130, 130, 130), (210, 50, 50), (140, 80, 190),
 )  # fmt: skip
+GHOST_COLOURS = {
+    GhostSource.GNSS: RED, GhostSource.ODOMETRY: GREY, GhostSource.ROWS: VIOLET, GhostSource.MAP: BLUE,
+}  # fmt: skip
+GHOST_WORDS = {
+    GhostSource.GNSS: "GNSS", GhostSource.ODOMETRY: "odometry", GhostSource.ROWS: "rows", GhostSource.MAP: "3D map",
+}  # fmt: skip
 DRIVEN_STEP = 0.2  # m between two points of the driven line
 MOST_DRIVEN = 5000
 ROW_AHEAD = 6.0  # m that a seen row is drawn ahead when its end is not in sight
@@ -61,11 +78,12 @@ class SceneView:
         if show is not None:
             show(message)
 
-    def show_farm(self, site: SiteMap, trunks: TrunkMap) -> None:
-        """Draw the farm, and the trunks that are mapped where there are any."""
+    def show_farm(self, site: SiteMap, trunks: TrunkMap, cells: Cells | None = None) -> None:
+        """Draw the farm, the trunks that are mapped, and the 3D map that the robot drives by, where there are any."""
         self._frame = EnuFrame(site.datum)
         show_site(self._scene, site, planted=unmapped(site.rows, trunks))
         show_trunks(self._scene, trunks)
+        show_cells(self._scene, cells)
 
     def _show_status(self, status: NavStatus) -> None:
         if status.run_id != self._run_id:
@@ -76,7 +94,18 @@ class SceneView:
         self._body("/robot", status.pose, GREEN, opacity=1.0)
         self._ellipse("/robot_covariance", status.pose.x, status.pose.y, plane_covariance(status.pose), GREEN)
         self._add_driven(status.pose.x, status.pose.y)
+        self._show_ghosts(status.ghosts)
         self._stand_behind(status.pose)
+
+    def _show_ghosts(self, ghosts: tuple[Ghost, ...]) -> None:
+        """Where each source alone puts the robot, with how far that is from the driven pose."""
+        for source in GHOST_COLOURS.keys() - {ghost.source for ghost in ghosts}:
+            self._scene.remove_by_name(f"/ghosts/{source.value}")
+        for ghost in ghosts:
+            name, top = f"/ghosts/{ghost.source.value}", (ghost.x, ghost.y, self._vehicle.height + 0.4)
+            self._scene.add_icosphere(name, radius=0.1, color=GHOST_COLOURS[ghost.source], position=top)
+            words = f"{GHOST_WORDS[ghost.source]} {100 * ghost.apart:.0f} cm"
+            self._scene.add_label(f"{name}/words", words, position=(0.0, 0.0, 0.3))
 
     def _stand_behind(self, pose: PoseEstimate) -> None:
         """Where a view that is opened from now on begins; views that are open keep the operator's own choice."""

@@ -18,6 +18,7 @@ from backend.heartbeat import HeartbeatTeller
 from backend.import_jobs import ImportJobs
 from backend.live import Hub
 from backend.logins import LoginBook
+from backend.map3d_in_use import Map3dInUse
 from backend.map3d_jobs import Map3dJobs
 from backend.map3d_store import Map3dStore
 from backend.missions import MissionStore
@@ -67,6 +68,7 @@ class Station:
     trunk_maps: TrunkMapStore
     mapper: RunMapper
     maps3d: Map3dStore
+    map3d_in_use: Map3dInUse
     map3d_jobs: Map3dJobs
     watcher: RunWatcher
     heartbeat: HeartbeatTeller
@@ -109,6 +111,7 @@ def open_station(settings: Settings) -> Station:
     heartbeat = HeartbeatTeller(told_alive, lambda: hub.operators(settings.operator_timeout_s))
     scene = SceneProcess(settings)
     maps3d = Map3dStore(settings.map3d_dir)
+    map3d_in_use = Map3dInUse(maps3d, settings.data_dir / "robot")
     map3d_jobs = Map3dJobs(maps3d)
     calibrator = Calibrator(settings, endpoints, CalibratorKeeper(settings), robot)
     clients = (navigator, told_to_stop, told_alive, recorder, supervisor, database)
@@ -133,6 +136,7 @@ def open_station(settings: Settings) -> Station:
         trunk_maps=trunk_maps,
         mapper=mapper,
         maps3d=maps3d,
+        map3d_in_use=map3d_in_use,
         map3d_jobs=map3d_jobs,
         watcher=watcher,
         heartbeat=heartbeat,

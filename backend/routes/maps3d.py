@@ -9,7 +9,7 @@ from fastapi.responses import FileResponse
 
 from backend.deps import ERRORS, PathId, TheStation
 from backend.errors import ConflictError, NotFoundError
-from backend.schemas import Map3dDocument, RunMap3d
+from backend.schemas import Map3dChoice, Map3dDocument, RunMap3d
 from backend.station import Station
 from navcore.recording.message_count import message_count
 from navcore.topics import LIDAR3D_CLOUD
@@ -57,7 +57,25 @@ def list_maps3d(station: TheStation, site_id: PathId) -> list[Map3dDocument]:
 def delete_map3d(station: TheStation, site_id: PathId, run_id: PathId) -> None:
     """Throw a map away, or what was begun of one; the run stays and can be mapped again."""
     station.map3d_jobs.forget(run_id)
+    station.map3d_in_use.forget(site_id, run_id)
     station.maps3d.delete(site_id, run_id)
+
+
+@router.get("/sites/{site_id}/map3d/in_use")
+def read_in_use(station: TheStation, site_id: PathId) -> Map3dChoice:
+    """Which map the robot drives by on this site."""
+    return Map3dChoice(run_id=station.map3d_in_use.run_id(site_id))
+
+
+@router.put("/sites/{site_id}/map3d/in_use")
+def use_map3d(station: TheStation, site_id: PathId, body: Map3dChoice) -> Map3dChoice:
+    """Drive by the map of a run, or by none."""
+    station.sites.get(site_id)
+    if body.run_id is None:
+        station.map3d_in_use.stop(site_id)
+    else:
+        station.map3d_in_use.use(site_id, body.run_id)
+    return read_in_use(station, site_id)
 
 
 @router.get("/sites/{site_id}/maps3d/{run_id}/files/{name}", response_class=FileResponse)

@@ -16,7 +16,7 @@ from backend.schemas.calibration import (
 from backend.schemas.drive import ActionResult, Nonce, OperatorAction, RunStart, StopResult
 from backend.schemas.imports import Job, JobStarted, JobState
 from backend.schemas.live import Heartbeat, LiveTopics
-from backend.schemas.maps3d import Map3dDocument, Map3dFile, Map3dJob, RunMap3d
+from backend.schemas.maps3d import Map3dChoice, Map3dDocument, Map3dFile, Map3dJob, RunMap3d
 from backend.schemas.missions import (
     MissionCreate,
     MissionDocument,
@@ -48,6 +48,7 @@ __all__ = [
     "JobState",
     "LiveTopics",
     "LogFormat",
+    "Map3dChoice",
     "Map3dDocument",
     "Map3dFile",
     "Map3dJob",

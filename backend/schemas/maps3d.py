@@ -6,7 +6,7 @@ from datetime import datetime
 
 from pydantic import Field
 
-from backend.schemas.base import Id, Sent
+from backend.schemas.base import Id, Received, Sent
 from backend.schemas.imports import JobState
 
 
@@ -38,6 +38,12 @@ class Map3dDocument(Sent):
     points: int
     doubts: list[str]
     files: list[Map3dFile]
+
+
+class Map3dChoice(Received):
+    """The run whose map the robot drives by; none where it drives without one."""
+
+    run_id: Id | None
 
 
 class Map3dJob(Sent):

@@ -39,7 +39,7 @@ def state(client: TestClient, run_id: str) -> str | None:
 
 
 def test_a_run_is_mapped_and_its_files_are_taken_home_and_thrown_away(
-    client: TestClient, ended: dict[str, Any], tmp_path: Path
+    client: TestClient, station: Station, ended: dict[str, Any], tmp_path: Path
 ) -> None:
     url, site_url = f"/api/runs/{ended['id']}/map3d", f"/api/sites/{ended['site_id']}/maps3d"
     before = client.get(url).json()
@@ -60,7 +60,19 @@ def test_a_run_is_mapped_and_its_files_are_taken_home_and_thrown_away(
         (tmp_path / name).write_bytes(got.content)
     assert len(read_ndt_map(tmp_path / "map.ndt")) > 100
     assert len(read_cloud(tmp_path / "cloud.laz").cloud) == after["map"]["points"]
+    choice = f"/api/sites/{ended['site_id']}/map3d/in_use"
+    assert client.get(choice).json() == {"run_id": None}
+    used = client.put(choice, json={"run_id": ended["id"]})
+    given = station.settings.data_dir / "robot" / f"{ended['site_id']}.ndt"
+    if after["map"]["georeferenced"]:
+        assert used.json() == client.get(choice).json() == {"run_id": ended["id"]}
+        assert given.read_bytes() == (tmp_path / "map.ndt").read_bytes()
+    else:
+        assert used.status_code == 409
+    assert client.put(choice, json={"run_id": "0" * 16}).status_code == 404
     assert client.delete(f"{site_url}/{ended['id']}").status_code == 204
+    assert not given.exists()
+    assert client.get(choice).json() == {"run_id": None}
     assert client.get(site_url).json() == []
     assert client.get(url).json()["map"] is None
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import socket
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,10 +13,13 @@ import viser
 from fastapi.testclient import TestClient
 from starlette.websockets import WebSocketDisconnect
 
+from backend.scene_cells import read_cells
 from backend.scene_site import posts, show_site, sides, trunks
 from backend.scene_trunks import cylinder, sizes, unmapped
 from backend.scene_view import SceneView
 from backend.settings import Settings
+from navcore.maps.ndt.ndt_file import write_ndt_map
+from navcore.maps.ndt.ndt_map import NdtMap
 from navcore.maps.site_map import Row, SiteMap
 from navcore.maps.trunk_map import MappedTrunk, TrunkMap
 from navcore.vehicle import PROFILES
@@ -139,3 +143,17 @@ def test_a_trunk_is_closed_and_looks_outwards() -> None:
     normals, centres = np.cross(b - a, c - a), (a + b + c) / 3.0
     outwards = np.einsum("ij,ij->i", normals, centres - (0.0, 0.0, 0.5))
     assert (outwards > 0.0).all()
+
+
+def test_the_3d_map_is_shown_by_height_and_a_broken_one_is_not(tmp_path: Path) -> None:
+    ndt_map = NdtMap()
+    points = np.random.default_rng(1).uniform((0.0, 0.0, 0.0), (20.0, 20.0, 3.0), (20_000, 3))
+    ndt_map.add(points)
+    write_ndt_map(tmp_path / "map.ndt", ndt_map)
+    cells = read_cells(tmp_path / "map.ndt")
+    assert cells is not None
+    assert len(cells.points) == len(cells.colours) == len(ndt_map)
+    assert (cells.points >= -0.01).all()
+    assert (cells.points <= (20.01, 20.01, 3.01)).all()
+    (tmp_path / "map.ndt").write_bytes(b"Rowpilot NDT map, cut off")
+    assert read_cells(tmp_path / "map.ndt") is None

@@ -2,7 +2,7 @@
 import { keepPreviousData, queryOptions } from "@tanstack/react-query";
 
 import { get, post } from "./client";
-import type { CalibrationDocument, Job, Map3d, Mission, MissionDocument, Preview, Robot, RowProposal, RunDetail, RunDocument, RunMap3d, RunTrack, SiteDocument, SiteSummary, TrunkMap, VersionDocument } from "./types";
+import type { CalibrationDocument, Job, Map3d, Map3dChoice, Mission, MissionDocument, Preview, Robot, RowProposal, RunDetail, RunDocument, RunMap3d, RunTrack, SiteDocument, SiteSummary, TrunkMap, VersionDocument } from "./types";
 
 export const sitesQuery = queryOptions({ queryKey: ["sites"], queryFn: ({ signal }) => get<SiteSummary[]>("/api/sites", signal) });
 
@@ -98,6 +98,10 @@ export const runMap3dQuery = (runId: string) =>
     queryFn: ({ signal }) => get<RunMap3d>(`/api/runs/${runId}/map3d`, signal),
     refetchInterval: (query) => (query.state.data?.job?.state === "running" ? 1000 : false),
   });
+
+/** Which 3D map the robot drives by on a farm. */
+export const map3dInUseQuery = (siteId: string) =>
+  queryOptions({ queryKey: ["maps3d", siteId, "in use"], queryFn: ({ signal }) => get<Map3dChoice>(`/api/sites/${siteId}/map3d/in_use`, signal) });
 
 /** Of a farm, the newest first. */
 export const maps3dQuery = (siteId: string) =>

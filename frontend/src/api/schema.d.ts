@@ -716,6 +716,30 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/sites/{site_id}/map3d/in_use": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read In Use
+         * @description Which map the robot drives by on this site.
+         */
+        get: operations["read_in_use_api_sites__site_id__map3d_in_use_get"];
+        /**
+         * Use Map3D
+         * @description Drive by the map of a run, or by none.
+         */
+        put: operations["use_map3d_api_sites__site_id__map3d_in_use_put"];
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/sites/{site_id}/maps3d": {
         parameters: {
             query?: never;
@@ -1779,6 +1803,14 @@ export interface components {
          * @enum {string}
          */
         LogFormat: "mcap" | "csv" | "geojson" | "gpx";
+        /**
+         * Map3dChoice
+         * @description The run whose map the robot drives by; none where it drives without one.
+         */
+        Map3dChoice: {
+            /** Run Id */
+            run_id: string | null;
+        };
         /**
          * Map3dDocument
          * @description A map that was made of a run.
@@ -4817,6 +4849,72 @@ export interface operations {
                     "application/json": {
                         [key: string]: unknown;
                     };
+                };
+            };
+            /** @description Any error */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorDocument"];
+                };
+            };
+        };
+    };
+    read_in_use_api_sites__site_id__map3d_in_use_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                site_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Map3dChoice"];
+                };
+            };
+            /** @description Any error */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorDocument"];
+                };
+            };
+        };
+    };
+    use_map3d_api_sites__site_id__map3d_in_use_put: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                site_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["Map3dChoice"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Map3dChoice"];
                 };
             };
             /** @description Any error */

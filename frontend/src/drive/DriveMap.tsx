@@ -5,6 +5,7 @@ import { useTopic } from "../live/hooks";
 import { FitTo } from "../map/FitTo";
 import { FollowButton } from "../map/FollowButton";
 import { LiveDrivenLayer } from "../map/LiveDrivenLayer";
+import { LiveGhostLayer } from "../map/LiveGhostLayer";
 import { LiveRobotLayer } from "../map/LiveRobotLayer";
 import { MapView } from "../map/MapView";
 import { OrthophotoLayer } from "../map/OrthophotoLayer";
@@ -37,6 +38,7 @@ export function DriveMap({ document, robot, plan, onMission }: Props) {
       <PlanLayer plan={plan} frame={frame} />
       <LiveDrivenLayer frame={frame} />
       <LiveRobotLayer frame={frame} vehicle={robot.vehicle} follow={follow} />
+      <LiveGhostLayer frame={frame} />
       <TrunkLayer siteId={document.id} frame={frame} onDrive={underWay ? undefined : toTrunk} />
       <FitTo extent={extent} subject={document.id} />
       <FollowButton follow={follow} onChange={setFollow} />

@@ -4,6 +4,7 @@ import type { NavStatus } from "../api/types";
 import { useFresh, useTopic } from "../live/hooks";
 import { accuracy, centimetres, degrees, duration, metres, percent, seconds, speed, volts } from "../ui/format";
 import { type Tone, fixWords, positionSigma } from "../ui/words";
+import { apartWords } from "../ui/ghosts";
 import { trunkName, trunkNote } from "../ui/trunk";
 import css from "./drive.module.css";
 
@@ -27,6 +28,7 @@ export function Gauges() {
       <Gauge name="Guard" value={s?.guard ?? "–"} note={s?.guard_reason} tone={s?.guard === "latched" ? "bad" : undefined} />
       <Gauge name="Camera" value={s?.camera ? `${centimetres(s.camera.height)} high` : "–"} note={s ? cameraNote(s) : ""} />
       <RowSensors />
+      <OnMap />
       <Gauge name="Trunk" value={s?.trunk ? trunkName(s.trunk) : "–"} note={s?.trunk ? trunkNote(s.trunk) : "in mapped rows only"} />
       <Gauge name="Mission" value={percent(s?.run_id ? s.progress : null)} note={s?.run_id ? `${metres(s.remaining)} to go` : ""} />
       <Gauge name="Time left" value={duration(s ? timeLeft(s) : null)} />
@@ -43,6 +45,17 @@ function RowSensors() {
   const row = fresh ? view?.row : null;
   const note = row ? row.missing || (row.valid ? "see the row" : row.reason) : "in rows only";
   return <Gauge name="Row by" value={row ? SENSORS[row.source ?? "camera"] : "–"} note={note} tone={row?.missing ? "warn" : undefined} />;
+}
+
+/** Where the 3D LiDAR's clouds lie on the farm's map; nothing on a robot without one. */
+function OnMap() {
+  const match = useTopic("lidar3d/match");
+  const fresh = useFresh("lidar3d/match");
+  const ghosts = useTopic("nav/status")?.ghosts ?? [];
+  if (!match) return null;
+  const matched = fresh && match.state === "matched";
+  const value = matched ? `fits ${percent(match.score)}` : "no place";
+  return <Gauge name="3D map" value={value} note={matched ? `off the robot: ${apartWords(ghosts)}` : match.reason} tone={matched ? undefined : "warn"} />;
 }
 
 function Gauge({ name, value, note, tone }: { name: string; value: ReactNode; note?: string; tone?: Tone }) {

@@ -1,5 +1,5 @@
 /** Messages of the live feed: JSON text, or for pictures u32 header length (little-endian), JSON header, JPEG. */
-import type { CalibrationInUse, CalibrationView, CameraView, GnssFix, MissionPlan, ModeSwitch, NavStatus } from "../api/types";
+import type { CalibrationInUse, CalibrationView, CameraView, GnssFix, MapMatch, MissionPlan, ModeSwitch, NavStatus } from "../api/types";
 
 /** What travels under each topic's name. */
 export interface Topics {
@@ -8,6 +8,7 @@ export interface Topics {
   "nav/plan": MissionPlan;
   "gnss/fix": GnssFix;
   "camera/view": CameraView;
+  "lidar3d/match": MapMatch;
   "calibration/view": CalibrationView;
   "calibration/in_use": CalibrationInUse;
 }

@@ -7,6 +7,7 @@ import { remove, sentences } from "../api/client";
 import type { Map3d } from "../api/types";
 import { bytes, centimetres, moment, percent, way } from "../ui/format";
 import { Reasons } from "../ui/Reasons";
+import { UseMap3d } from "./UseMap3d";
 import css from "./runs.module.css";
 
 const NAMES: Record<string, string> = { "map.ndt": "NDT map", "cloud.laz": "Cloud, LAZ", "cloud.pcd": "Cloud, PCD", "report.json": "Report" };
@@ -25,6 +26,7 @@ export function Map3dResult({ siteId, map }: { siteId: string; map: Map3d }) {
           </div>
         ))}
       </dl>
+      <UseMap3d siteId={siteId} map={map} />
       <div className={css.downloads}>
         {map.files.map((file) => (
           <Button key={file.name} size="md" component="a" href={`${url}/files/${file.name}`} download variant="default" leftSection={<IconDownload size={18} />}>

@@ -17,6 +17,7 @@ def ground_height(ndt_map: NdtMap, x: float, y: float) -> float:
     """
     grid = ndt_map.grids[-1]
     counts = grid.sums[:, 0]
-    means = grid.sums[:, 1:4] / np.maximum(counts, 1.0)[:, None]
+    corners = grid.centres() - grid.size / 2.0
+    means = corners + grid.sums[:, 1:4] / np.maximum(counts, 1.0)[:, None]
     near = (np.hypot(means[:, 0] - x, means[:, 1] - y) < _REACH) & (counts > 0)
     return float(np.percentile(means[near, 2], _LOW_SHARE)) if near.any() else 0.0
