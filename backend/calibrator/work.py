@@ -47,6 +47,7 @@ class CalibratorWork:
         self._job = new_job(setup)
         self._session = Session(setup, folder, self._job, StillBoardParams())
         self._fitter, self._second = Fitter(self._job), SecondLook(setup.board)
+        self._truth: tuple[tuple[str, float], ...] = ()
         self._results = 0
         self._asked_ns = 0
         self._heard_ns = time.monotonic_ns()
@@ -98,7 +99,7 @@ class CalibratorWork:
             fitting=outcome.revision != session.revision, poses=poses,
             grid=tuple(coverage.grid.ravel().tolist()), enough=CoverageParams().corners, missing=coverage.missing,
             share=coverage.share, result=fitted.result if fitted is not None else None, reasons=outcome.reasons,
-            resumed=session.resumed, lost=tuple(session.lost),
+            truth=self._truth, resumed=session.resumed, lost=tuple(session.lost),
         )  # fmt: skip
 
     def close(self) -> None:
@@ -145,6 +146,7 @@ class CalibratorWork:
     def _see(self, picture: RawPicture, jpeg: bytes, publisher: Publisher) -> None:
         if picture.camera is not self._setup.camera:
             return
+        self._truth = picture.truth or self._truth
         image = grey_picture(jpeg)
         if image is None and jpeg:
             picture = replace(picture, problem="The camera's picture is damaged. Look at its cable.")

@@ -49,6 +49,7 @@ class RawPicture:
         problem: why there is none, a sentence, or what is wrong with it; empty when all is well.
         T_lidar_camera: 16 numbers row by row, from the optical axes, m, as mounted by what is in use; None without a
             2D LiDAR.
+        truth: of a simulated camera, name and value of each number that shall be found.
     """
 
     stamp_ns: int
@@ -57,6 +58,7 @@ class RawPicture:
     height_px: int = 0
     problem: str = ""
     T_lidar_camera: tuple[float, ...] | None = None
+    truth: tuple[tuple[str, float], ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

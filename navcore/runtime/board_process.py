@@ -16,7 +16,7 @@ from navcore.messages import CalibrationJob, CameraName, LidarScan, RawPicture
 from navcore.promptness import give_way
 from navcore.runtime.clock import Ticker
 from navcore.runtime.raw_pictures import JPEG_QUALITY
-from navcore.sim.board_rehearsal import BoardRehearsal, BoardRehearsalParams, RehearsalFrame, told_mount
+from navcore.sim.board_rehearsal import BoardRehearsal, BoardRehearsalParams, RehearsalFrame, told_mount, truth
 from navcore.topics import SIM_BOARD, SIM_BOARD_SCAN
 from navcore.transport.endpoints import Endpoints
 from navcore.transport.pubsub import Publisher
@@ -45,11 +45,14 @@ def main() -> None:
     with Publisher(Endpoints(given.bus), "board") as publisher:
         while not ended:
             ticker.wait()
-            publish(publisher, given.camera, next(frames), time.monotonic_ns())
+            publish(publisher, given.camera, next(frames), time.monotonic_ns(), truth(given.job))
 
 
-def publish(publisher: Publisher, camera: CameraName, frame: RehearsalFrame, now_ns: int) -> None:
-    """A frame of now."""
+def publish(
+    publisher: Publisher, camera: CameraName, frame: RehearsalFrame, now_ns: int,
+    told: tuple[tuple[str, float], ...],
+) -> None:  # fmt: skip
+    """A frame of now, with the truth."""
     scan = LidarScan(
         stamp_ns=now_ns, began_ns=now_ns - FRAME_NS, angles=tuple(frame.angles.tolist()),
         distances=tuple(frame.distances.tolist()),
@@ -58,7 +61,8 @@ def publish(publisher: Publisher, camera: CameraName, frame: RehearsalFrame, now
     _, jpeg = cv2.imencode(".jpg", frame.image, (cv2.IMWRITE_JPEG_QUALITY, JPEG_QUALITY))
     height, width = frame.image.shape[:2]
     picture = RawPicture(
-        stamp_ns=now_ns, camera=camera, width_px=width, height_px=height, T_lidar_camera=numbers_of(told_mount())
+        stamp_ns=now_ns, camera=camera, width_px=width, height_px=height, T_lidar_camera=numbers_of(told_mount()),
+        truth=told,
     )  # fmt: skip
     publisher.publish(SIM_BOARD.name, picture, jpeg.tobytes())
 

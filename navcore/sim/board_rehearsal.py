@@ -10,6 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from navcore.calibration.board import Board, BoardSighting, Image
+from navcore.calibration.found_values import PLACE as PLACE_NAMES
+from navcore.calibration.intrinsics_fit import PARAMETERS
 from navcore.geometry.intrinsics import Intrinsics
 from navcore.geometry.lens import Lens
 from navcore.geometry.pinhole import R_BASE_OPTICAL, rotation_from_rpy
@@ -110,6 +112,14 @@ def true_mount() -> Floats:
 def told_mount() -> Floats:
     """The same as somebody measured it with a ruler: 4 cm and 4 deg off."""
     return _mount(RULER_PLACE, RULER_RPY_DEG)
+
+
+def truth(job: CalibrationJob) -> tuple[tuple[str, float], ...]:
+    """What shall be found, by the names and in the units of `FoundValue`."""
+    if job is CalibrationJob.LIDAR:
+        return tuple(zip(PLACE_NAMES, (*PLACE, *RPY_DEG), strict=True))
+    numbers = (CAMERA.fx, CAMERA.fy, CAMERA.cx, CAMERA.cy, *LENS.coefficients)
+    return tuple(zip(PARAMETERS, numbers, strict=True))
 
 
 def _mount(place: tuple[float, float, float], rpy_deg: tuple[float, float, float]) -> Floats:

@@ -3029,6 +3029,7 @@ export interface components {
          *         enough: so many corners in a part are enough.
          *         missing: sentences, the most useful first. share: of what is asked for that is there, 0 to 1.
          *         result: of the newest fit; None where there is none, and then `reasons` say why not.
+         *         truth: of a rehearsal, name and value of what shall be found, in the units of the result.
          *         resumed: poses that were kept while the calibration was interrupted. lost: files that could not be read.
          */
         SessionState: {
@@ -3060,6 +3061,14 @@ export interface components {
             setup: components["schemas"]["SessionSetup"];
             /** Share */
             share: number;
+            /**
+             * Truth
+             * @default []
+             */
+            truth: [
+                string,
+                number
+            ][];
         };
         /**
          * SiteCreate

@@ -5,7 +5,7 @@ import type { CalibrationResult, CalibrationState } from "../api/types";
 import { Card } from "../ui/Card";
 import { Reasons } from "../ui/Reasons";
 import { FloorCanvas } from "./FloorCanvas";
-import { foundLine, inUnit } from "./foundWords";
+import { foundLine, inUnit, trueValue } from "./foundWords";
 import { FloorLegend } from "./LiveFloor";
 import css from "./setup.module.css";
 
@@ -19,13 +19,13 @@ export function ResultCard({ state }: { state: CalibrationState }) {
           <Loader size="sm" /> Working it out …
         </p>
       )}
-      {result && <Numbers result={result} />}
+      {result && <Numbers result={result} truth={new Map(state.truth)} />}
       {!result && !state.fitting && <Reasons reasons={state.reasons} tone="quiet" />}
     </Card>
   );
 }
 
-function Numbers({ result }: { result: CalibrationResult }) {
+function Numbers({ result, truth }: { result: CalibrationResult; truth: ReadonlyMap<string, number> }) {
   const told = inUnit(result.unit);
   const floor = useMemo(() => ({ scan: [], boards: result.boards ?? [] }), [result]);
   return (
@@ -37,12 +37,23 @@ function Numbers({ result }: { result: CalibrationResult }) {
           : ` between rays and boards in ${result.poses} poses; 1 σ is what the sensors' noise explains`}
       </p>
       <table className={css.numbers}>
+        {truth.size > 0 && (
+          <thead>
+            <tr>
+              <th />
+              <th>found</th>
+              <th />
+              <th>simulated truth</th>
+            </tr>
+          </thead>
+        )}
         <tbody>
-          {result.values.map(foundLine).map(({ name, value, std }) => (
-            <tr key={name}>
-              <th scope="row">{name}</th>
-              <td>{value}</td>
-              <td>{std}</td>
+          {result.values.map((found) => ({ ...foundLine(found), true: trueValue(found, truth) })).map((line) => (
+            <tr key={line.name}>
+              <th scope="row">{line.name}</th>
+              <td>{line.value}</td>
+              <td>{line.std}</td>
+              {truth.size > 0 && <td>{line.true}</td>}
             </tr>
           ))}
         </tbody>

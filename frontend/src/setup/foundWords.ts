@@ -36,6 +36,12 @@ export function foundLine({ name, value, std, unit }: FoundValue): FoundLine {
   return { name: word, value: text(value, 4), std: `± ${text(std, 4)}` };
 }
 
+/** What a rehearsal should have found. */
+export function trueValue(found: FoundValue, truth: ReadonlyMap<string, number>): string {
+  const value = truth.get(found.name);
+  return value === undefined ? "–" : foundLine({ ...found, value }).value;
+}
+
 export const pixels = (value: number | null | undefined) => (typeof value === "number" ? `${text(value, 3)} px` : "–");
 export const sigmas = (value: number | null | undefined) => (typeof value === "number" ? `${text(value, 2)} σ` : "–");
 export const inUnit = (unit: string) => (unit === "px" ? pixels : sigmas);

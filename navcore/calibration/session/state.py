@@ -93,6 +93,7 @@ class SessionState:
         enough: so many corners in a part are enough.
         missing: sentences, the most useful first. share: of what is asked for that is there, 0 to 1.
         result: of the newest fit; None where there is none, and then `reasons` say why not.
+        truth: of a rehearsal, name and value of what shall be found, in the units of the result.
         resumed: poses that were kept while the calibration was interrupted. lost: files that could not be read.
     """
 
@@ -106,5 +107,6 @@ class SessionState:
     share: float
     result: Result | None
     reasons: tuple[str, ...]
+    truth: tuple[tuple[str, float], ...] = ()
     resumed: int = 0
     lost: tuple[str, ...] = ()

@@ -32,7 +32,9 @@ def printed(board: Board) -> Image:
 
 @pytest.mark.parametrize("board", [Board(), Board(charuco=True), Board(columns=6, rows=9, square=0.02)], ids=str)
 def test_the_board_is_found_in_its_own_print_and_its_squares_have_their_size(board: Board) -> None:
-    found = BoardFinder(board, BoardFinderParams()).find(cv2.GaussianBlur(printed(board), (0, 0), 1.0))
+    found = BoardFinder(board, BoardFinderParams()).find(
+        np.asarray(cv2.GaussianBlur(printed(board), (0, 0), 1.0), np.uint8)
+    )
     assert not isinstance(found, str), found
     assert len(found.ids) == board.columns * board.rows
     right = found.pixels[board.columns - 1] - found.pixels[0]
