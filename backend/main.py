@@ -13,7 +13,7 @@ from backend import errors, permissions
 from backend.body_limits import BodyLimit
 from backend.gate import Gate
 from backend.headers import SecurityHeaders
-from backend.routes import frontend, live, missions, orthophotos, robot, runs, scene, session, sites, trunks
+from backend.routes import frontend, live, maps3d, missions, orthophotos, robot, runs, scene, session, sites, trunks
 from backend.settings import Settings
 from backend.station import Station, open_station
 
@@ -21,6 +21,7 @@ ROOMS = (
     session,
     sites,
     trunks,
+    maps3d,
     orthophotos,
     missions,
     robot,

@@ -107,6 +107,11 @@ class Settings(BaseSettings):
         return self.data_dir / "runs"
 
     @property
+    def map3d_dir(self) -> Path:
+        """3D maps, `<site id>/<run id>/`."""
+        return self.data_dir / "maps3d"
+
+    @property
     def cookie_name(self) -> str:
         """Browsers share cookies between the ports of a host; two stations must not log each other out."""
         return f"rowpilot_{self.port}"

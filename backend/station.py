@@ -15,6 +15,8 @@ from backend.heartbeat import HeartbeatTeller
 from backend.import_jobs import ImportJobs
 from backend.live import Hub
 from backend.logins import LoginBook
+from backend.map3d_jobs import Map3dJobs
+from backend.map3d_store import Map3dStore
 from backend.missions import MissionStore
 from backend.navigator import NavigatorClient
 from backend.nonces import NonceBook
@@ -59,6 +61,8 @@ class Station:
     exports: ExportStore
     trunk_maps: TrunkMapStore
     mapper: RunMapper
+    maps3d: Map3dStore
+    map3d_jobs: Map3dJobs
     watcher: RunWatcher
     heartbeat: HeartbeatTeller
     scene: SceneProcess
@@ -96,6 +100,8 @@ def open_station(settings: Settings) -> Station:
     watcher = RunWatcher(endpoints, runs, hub.put, RunEnd(recorder, mapper.map_ended).finish)
     heartbeat = HeartbeatTeller(told_alive, lambda: hub.operators(settings.operator_timeout_s))
     scene = SceneProcess(settings)
+    maps3d = Map3dStore(settings.map3d_dir)
+    map3d_jobs = Map3dJobs(maps3d)
     clients = (navigator, told_to_stop, told_alive, recorder, supervisor, database)
     return Station(
         settings=settings,
@@ -116,10 +122,12 @@ def open_station(settings: Settings) -> Station:
         exports=exports,
         trunk_maps=trunk_maps,
         mapper=mapper,
+        maps3d=maps3d,
+        map3d_jobs=map3d_jobs,
         watcher=watcher,
         heartbeat=heartbeat,
         scene=scene,
-        closers=tuple(part.close for part in (scene, heartbeat, watcher, hub, jobs, stopper, *clients)),
+        closers=tuple(part.close for part in (scene, heartbeat, watcher, hub, map3d_jobs, jobs, stopper, *clients)),
     )
 
 

@@ -119,7 +119,7 @@ CAMERA_VIEW = Topic(
 NAV_ODOMETRY = Topic(
     name="nav/odometry", type=m.Odometry, publisher="navigator", rate_hz=50, max_age_s=0.2, logged=False, shown=False
 )
-LIDAR_CLOUD = Topic(
+LIDAR3D_CLOUD = Topic(
     name="lidar3d/cloud", type=m.LidarCloud, publisher="scan_worker", rate_hz=10, max_age_s=0.5, logged=True,
     shown=False,
 )  # fmt: skip
@@ -155,6 +155,6 @@ TOPICS: dict[str, Topic] = {
     for t in (
         NAV_INPUTS, NAV_DECISION, NAV_STATUS, NAV_SWITCH, NAV_PLAN, CAMERA_REQUEST, GNSS_FIX, CHASSIS_STATE,
         IMU_SAMPLE, ROW_OBSERVATION, CAMERA_VIEW, SIM_TRUTH, SIM_FARM, SIM_CONTACT, SIM_SCAN, LIDAR_SCAN,
-        NAV_ODOMETRY, LIDAR_CLOUD, MAP_MATCH, RECORDER_STATUS, NAV_PRELUDE,
+        NAV_ODOMETRY, LIDAR3D_CLOUD, MAP_MATCH, RECORDER_STATUS, NAV_PRELUDE,
     )
 }  # fmt: skip

@@ -7,6 +7,7 @@ from backend.schemas.base import ErrorDocument, Id, Received, Sent
 from backend.schemas.drive import ActionResult, Nonce, OperatorAction, RunStart, StopResult
 from backend.schemas.imports import Job, JobStarted, JobState
 from backend.schemas.live import Heartbeat, LiveTopics
+from backend.schemas.maps3d import Map3dDocument, Map3dFile, Map3dJob, RunMap3d
 from backend.schemas.missions import (
     MissionCreate,
     MissionDocument,
@@ -33,6 +34,9 @@ __all__ = [
     "JobState",
     "LiveTopics",
     "LogFormat",
+    "Map3dDocument",
+    "Map3dFile",
+    "Map3dJob",
     "MissionCreate",
     "MissionDocument",
     "MissionEdit",
@@ -48,6 +52,7 @@ __all__ = [
     "RunDetail",
     "RunDocument",
     "RunEventDocument",
+    "RunMap3d",
     "RunOutcome",
     "RunStart",
     "RunTrack",

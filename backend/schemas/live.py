@@ -5,7 +5,7 @@ from __future__ import annotations
 from pydantic import ConfigDict, Field
 
 from backend.schemas.base import Received, Sent
-from navcore.messages import CameraView, GnssFix, MissionPlan, ModeSwitch, NavStatus, RecorderStatus
+from navcore.messages import CameraView, GnssFix, MapMatch, MissionPlan, ModeSwitch, NavStatus, RecorderStatus
 
 
 class Heartbeat(Received):
@@ -24,4 +24,5 @@ class LiveTopics(Sent):
     nav_plan: MissionPlan | None = Field(alias="nav/plan")
     gnss_fix: GnssFix | None = Field(alias="gnss/fix")
     camera_view: CameraView | None = Field(alias="camera/view")
+    map_match: MapMatch | None = Field(alias="lidar3d/match")
     recorder_status: RecorderStatus | None = Field(alias="recorder/status")

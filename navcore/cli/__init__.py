@@ -10,6 +10,9 @@ from navcore.cli import (
     decode_rplidar,
     evaluate,
     export,
+    map_run,
+    odometry,
+    register,
     replay,
     report,
     run,
@@ -40,6 +43,9 @@ see.register(app)
 score.register(app)
 report.register(app)
 trunks.register(app)
+register.register(app)
+odometry.register(app)
+map_run.register(app)
 
 
 @app.callback()

@@ -41,3 +41,8 @@ class LidarMount:
 def robot_lidar() -> LidarMount:
     """Paper B's: 0.25 m above the middle of the body, in front of what it carries."""
     return LidarMount(x=0.30, y=0.0, z=0.55)
+
+
+def robot_lidar3d() -> LidarMount:
+    """Paper C's: (0.2, 0, 0.25) m on a Scout 2.0, read as above its top plate, 0.34 m high."""
+    return LidarMount(x=0.20, y=0.0, z=0.59)

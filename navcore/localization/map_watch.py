@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections import deque
 from dataclasses import dataclass
+from statistics import median
 
 from navcore.geometry.se2 import SE2
 from navcore.messages import MapMatch, MatchState
@@ -26,8 +27,9 @@ class MapWatchParams:
         jump_yaw: rad, the same of the direction.
         apart: m, a fixed RTK position and the match may differ by this.
         row_apart: m, by so much a row may seem to move sideways against the map.
-        patience: so many contradictions in a row are believed, and so many agreements end the doubt.
-        learn: so many looks at a row say where it lies against the map.
+        patience: so many contradictions in a row are believed, and as many agreements end the doubt.
+        row_patience: the same of looks at a row, of which some are wrong in a row.
+        learn: so many looks at a row say where it lies against the map; the newest five times as many count.
     """
 
     back_s: float = 0.8
@@ -37,6 +39,7 @@ class MapWatchParams:
     apart: float = 0.3
     row_apart: float = 0.3
     patience: int = 2
+    row_patience: int = 5
     learn: int = 10
 
 
@@ -63,9 +66,9 @@ class MapWatch:
     def __init__(self, params: MapWatchParams | None = None) -> None:
         self._p = p = params or MapWatchParams()
         self._matches: deque[tuple[MapMatch, SE2]] = deque(maxlen=50)
-        self._wheels, self._fix, self._row = (Doubts(p.patience) for _ in range(3))
+        self._wheels, self._fix, self._row = Doubts(p.patience), Doubts(p.patience), Doubts(p.row_patience)
         self._row_id: str | None = None
-        self._row_places: list[float] = []
+        self._row_places: deque[float] = deque(maxlen=5 * p.learn)
 
     @property
     def reason(self) -> str:
@@ -97,19 +100,21 @@ class MapWatch:
     def add_row(self, row_id: str, lateral_seen: float, lateral_by_map: float) -> None:
         """Where a seen row's middle lies, and where the map puts that of the drawn one, m to the left."""
         if row_id != self._row_id:
-            self._row_id, self._row_places = row_id, []
+            self._row_id = row_id
+            self._row_places.clear()
         off = lateral_seen - lateral_by_map
-        if len(self._row_places) < self._p.learn:
-            self._row_places.append(off)
+        moved = abs(off - median(self._row_places)) if len(self._row_places) >= self._p.learn else 0.0
+        if moved > self._p.row_apart:
+            self._row.hear(f"the row seems to lie {moved:.1f} m beside itself")
             return
-        moved = abs(off - sorted(self._row_places)[self._p.learn // 2])
-        self._row.hear(f"the row seems to lie {moved:.1f} m beside itself" if moved > self._p.row_apart else "")
+        self._row.hear("")
+        self._row_places.append(off)
 
     def row_agrees(self, row_id: str | None, within: float) -> bool:
         """Whether that row was seen to lie where it is drawn: only then may the map lead through it."""
         if row_id is None or row_id != self._row_id or len(self._row_places) < self._p.learn:
             return False
-        return abs(sorted(self._row_places)[self._p.learn // 2]) <= within
+        return abs(median(self._row_places)) <= within
 
     def _before(self, match: MapMatch) -> tuple[MapMatch, SE2] | None:
         """The oldest match of at most `back_s` ago."""

@@ -27,7 +27,17 @@ from navcore.messages.request import LinkLossPolicy, Reply, Request, RequestKind
 from navcore.messages.scan import LidarScan
 from navcore.messages.sensing import FixQuality, GnssFix, ImuSample
 from navcore.messages.simulation import SimContact, SimFarm, SimTruth, TrueRow
-from navcore.messages.status import ActiveEvent, ModeSwitch, NavMode, NavStatus, NextTrunk, PoseEstimate, RunState
+from navcore.messages.status import (
+    ActiveEvent,
+    Ghost,
+    GhostSource,
+    ModeSwitch,
+    NavMode,
+    NavStatus,
+    NextTrunk,
+    PoseEstimate,
+    RunState,
+)
 from navcore.messages.tick import Decision, NavInputs, NavPrelude
 
 __all__ = [
@@ -40,6 +50,8 @@ __all__ = [
     "Decision",
     "DetectedObject",
     "FixQuality",
+    "Ghost",
+    "GhostSource",
     "GnssFix",
     "ImageArea",
     "ImageLine",

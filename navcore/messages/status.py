@@ -100,6 +100,29 @@ class NextTrunk:
     exact: bool
 
 
+class GhostSource(StrEnum):
+    """Who alone would put the robot where."""
+
+    GNSS = "gnss"
+    ODOMETRY = "odometry"
+    ROWS = "rows"
+    MAP = "map"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Ghost:
+    """Where one source alone puts `base_link` in `map` now, m and rad, and how far that is from the driven pose, m.
+
+    Odometry's is carried from where the mission began; rows know where the robot is across them, not along.
+    """
+
+    source: GhostSource
+    x: float
+    y: float
+    yaw: float
+    apart: float
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NavStatus:
     """What the operator sees of the navigator, 20 Hz.
@@ -115,6 +138,7 @@ class NavStatus:
         camera: how the camera that saw a row last is mounted; None before. camera_roll: it leans by so much to the
             right against the IMU, and its 1-sigma, rad.
         trunk: that comes next; None outside rows and where no trunk is known.
+        ghosts: what each source says alone, on a robot with a 3D LiDAR.
     """
 
     stamp_ns: int
@@ -146,3 +170,4 @@ class NavStatus:
     camera: CameraMount | None = None
     camera_roll: tuple[float, float] | None = None
     trunk: NextTrunk | None = None
+    ghosts: tuple[Ghost, ...] = ()

@@ -29,14 +29,21 @@ class MapEvidenceParams:
 
 
 class MapEvidence:
-    """Matches on the 3D map, judged by independent witnesses."""
+    """Matches on the 3D map, judged by independent witnesses.
+
+    Attributes:
+        newest: the newest match that was believed. told: the newest of all. streak: believed ones in a row.
+        T_map_odom: by the newest that was believed.
+    """
 
     def __init__(self, frame: EnuFrame, params: MapEvidenceParams) -> None:
         self._frame, self._params = frame, params
         self._watch = MapWatch(params.watch)
+        self._antenna = (params.antenna_x, params.antenna_y)
         self.newest: MapMatch | None = None
         self.told: MapMatch | None = None
         self.streak = 0
+        self.T_map_odom = SE2()
 
     def add(self, match: MapMatch, T_odom_base: SE2) -> bool:
         """One match with the odometry at its capture; whether it may move the pose."""
@@ -45,17 +52,28 @@ class MapEvidence:
             self.streak = 0
             return False
         self.newest, self.streak = match, self.streak + 1
+        self.T_map_odom = SE2(match.x, match.y, match.yaw) @ T_odom_base.inverse()
         return True
 
     def add_fix(self, fix: GnssFix, T_odom_base: SE2) -> None:
         """One fix with the odometry at its capture: only a fixed RTK position is a witness."""
         if fix.quality is not FixQuality.RTK_FIXED or fix.lat_deg is None or fix.lon_deg is None:
             return
-        height = self._frame.height_m if fix.height_m is None else fix.height_m
-        east, north, _ = self._frame.to_enu(fix.lat_deg, fix.lon_deg, height)
+        east, north = self._place(fix.lat_deg, fix.lon_deg, fix.height_m)
         std = max(fix.std_east_m or 0.0, fix.std_north_m or 0.0)
-        antenna = (self._params.antenna_x, self._params.antenna_y)
-        self._watch.add_fix(fix.stamp_ns, float(east), float(north), std, T_odom_base, antenna)
+        self._watch.add_fix(fix.stamp_ns, east, north, std, T_odom_base, self._antenna)
+
+    def base_at(self, fix: GnssFix, yaw: float) -> SE2 | None:
+        """Where a fix alone puts `base_link`, looking along `yaw`; None without a place."""
+        if fix.lat_deg is None or fix.lon_deg is None:
+            return None
+        ax, ay = SE2(0.0, 0.0, yaw).apply_point(*self._antenna)
+        east, north = self._place(fix.lat_deg, fix.lon_deg, fix.height_m)
+        return SE2(east - ax, north - ay, yaw)
+
+    def _place(self, lat_deg: float, lon_deg: float, height_m: float | None) -> tuple[float, float]:
+        east, north, _ = self._frame.to_enu(lat_deg, lon_deg, self._frame.height_m if height_m is None else height_m)
+        return float(east), float(north)
 
     def add_row(self, leg: str, seen: RowObservation, row: RowLine, T_odom_drive: SE2, T_map_odom: SE2) -> None:
         """A row that is seen, where it is drawn, and the pose by the map; `leg` names row and direction."""

@@ -42,7 +42,8 @@ class Pilot:
         self.params = params
         self.on_map = on_map
         self.route = Route(plan)
-        self.anchor = PathAnchor(T_map_base @ start.T_odom_base.inverse(), params.anchor)
+        self.start_tie = T_map_base @ start.T_odom_base.inverse()
+        self.anchor = PathAnchor(self.start_tie, params.anchor)
         self.row = RowEvidence(params.row)
         self.look_back = LookBack(self.anchor, params.row)
         self._along = AlongRow(self.anchor, params.along)
@@ -173,7 +174,7 @@ class Pilot:
     def _compare_map(self, seen: RowObservation, row: RowLine, T_odom_drive: SE2) -> None:
         """What the row says of the place on the 3D map, and the map of the row as drawn."""
         at, leg = self._at, self.leg.row_way(self.place.s, self.params.look_out)
-        if at.T_map_base is not None and leg is not None:
+        if self.mode is NavMode.ROW and at.T_map_base is not None and leg is not None:
             self.on_map.add_row(leg, seen, row, T_odom_drive, at.T_map_base @ at.T_odom_base.inverse())
 
     def _turned_to_row(self, row: RowLine, T_odom_drive: SE2) -> bool:

@@ -7,6 +7,7 @@ from navcore.messages import ActiveEvent, NavStatus
 from navcore.mission.driven_pose import driven_pose
 from navcore.mission.event_facts import EventFacts
 from navcore.mission.events import Event
+from navcore.mission.ghosts import ghosts
 from navcore.mission.situation import Situation
 from navcore.mission.state_machine import Effect
 
@@ -76,4 +77,5 @@ def nav_status(now: Situation, now_ns: int, events: ActiveEvents) -> NavStatus:
         camera=s.camera.newest,
         camera_roll=s.attitude.mount_roll,
         trunk=pilot.next_trunk() if pilot else None,
+        ghosts=ghosts(now, now_ns, driven_pose(now)),
     )

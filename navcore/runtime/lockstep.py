@@ -20,7 +20,9 @@ from navcore.messages import (
     Decision,
     ImuSample,
     LidarScan,
+    MapMatch,
     NavInputs,
+    Odometry,
     Request,
     SimTruth,
 )
@@ -40,6 +42,13 @@ class Eye(Protocol):
         """What is seen from where the robot truly is, and in the scans that arrived since the last look."""
 
 
+class MapEye(Protocol):
+    """Looks for the robot on the 3D map as the scan worker does."""
+
+    def look(self, truth: SimTruth, motion: Odometry) -> MapMatch | None:
+        """A match, when a turn of the LiDAR ends now. To be called at every tick."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LockstepParams:
     """Rates and delays of the simulated robot, ms.
@@ -47,6 +56,7 @@ class LockstepParams:
     Attributes:
         physics_ms: step of the world. tick_ms: of the navigator (50 Hz). camera_ms: between pictures (10 Hz).
         camera_latency_ms: from exposure to the observation's arrival: sensor 80 ms and processing.
+        map_latency_ms: from the end of the 3D LiDAR's turn to the match's arrival.
         start_ns: simulated monotonic time at which the run begins.
     """
 
@@ -54,6 +64,7 @@ class LockstepParams:
     tick_ms: int = 20
     camera_ms: int = 100
     camera_latency_ms: int = 120
+    map_latency_ms: int = 100
     start_ns: int = 1_000_000_000
 
 
@@ -72,8 +83,11 @@ class Lockstep:
     """Steps everything together."""
 
     def __init__(
-        self, world: World, navigator: Navigator, eye: Eye | None, params: LockstepParams | None = None
-    ) -> None:
+        self, world: World, navigator: Navigator, eye: Eye | None, params: LockstepParams | None = None,
+        map_eye: MapEye | None = None,
+    ) -> None:  # fmt: skip
+        self.map_eye = map_eye
+        self._matches: deque[tuple[int, MapMatch]] = deque()
         self.params = params or LockstepParams()
         self.world, self.navigator, self.eye = world, navigator, eye
         self.guard, self.ecu, self.receiver = Guard(), ScoutEcu(), NmeaStream()
@@ -109,6 +123,7 @@ class Lockstep:
             gnss=tuple(fix for out in outputs for fix in self.receiver.feed(out.nmea, out.truth.stamp_ns)),
             rows=tuple(view.row for view in views),
             requests=self._taken_requests(),
+            matches=self._match(outputs[-1].truth),
         )
         decision = self.navigator.step(self.now_ns, inputs)
         self._obey(decision)
@@ -142,6 +157,17 @@ class Lockstep:
         arrived = []
         while self._pictures and self._pictures[0][0] <= self.now_ns:
             arrived.append(self._pictures.popleft()[1])
+        return tuple(arrived)
+
+    def _match(self, truth: SimTruth) -> tuple[MapMatch, ...]:
+        """The matches whose time of arrival has come."""
+        if self.map_eye is not None:
+            match = self.map_eye.look(truth, self.navigator.odometry(self.now_ns))
+            if match is not None:
+                self._matches.append((self.now_ns + self.params.map_latency_ms * MS, match))
+        arrived = []
+        while self._matches and self._matches[0][0] <= self.now_ns:
+            arrived.append(self._matches.popleft()[1])
         return tuple(arrived)
 
     def _taken_requests(self) -> tuple[Request, ...]:

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import msgspec
 
+from navcore.config import load_config
 from navcore.runtime.simulation import SimulationParams
 from navcore.transport.endpoints import Endpoints
 from navcore.vehicle import PROFILES, VehicleParams
@@ -55,6 +56,7 @@ class ProcessSpec:
         module: run with `python -m`.
         arguments: of the command line.
         simulated_only: not started on a real robot.
+        wanted: whether a robot needs it at all.
         knows_site: ended and started anew when the farm changes.
         patience_s: from SIGTERM to SIGKILL.
     """
@@ -63,6 +65,7 @@ class ProcessSpec:
     module: str
     arguments: Callable[[Robot], tuple[str, ...]]
     simulated_only: bool = False
+    wanted: Callable[[Robot], bool] = lambda robot: True
     knows_site: bool = False
     patience_s: float = 5.0
 
@@ -98,6 +101,13 @@ def row_worker_arguments(robot: Robot) -> tuple[str, ...]:
     return (*_bus(robot), *_site(robot), *_config(robot), *drawn)
 
 
+def has_lidar3d(robot: Robot) -> bool:
+    """Simulated or real."""
+    if robot.simulation is not None:
+        return robot.simulation.lidar3d
+    return bool(robot.config and load_config(robot.config).lidar3d.model)
+
+
 PROCESSES: tuple[ProcessSpec, ...] = (
     ProcessSpec(
         name="world", module="navcore.runtime.world_process", arguments=world_arguments, simulated_only=True,
@@ -113,6 +123,10 @@ PROCESSES: tuple[ProcessSpec, ...] = (
     ),
     ProcessSpec(
         name="row_worker", module="navcore.runtime.row_worker", arguments=row_worker_arguments, knows_site=True
+    ),
+    ProcessSpec(
+        name="scan_worker", module="navcore.runtime.scan_worker", arguments=row_worker_arguments, wanted=has_lidar3d,
+        knows_site=True,
     ),
     ProcessSpec(name="station", module="backend", arguments=lambda robot: ()),
 )  # fmt: skip

@@ -35,6 +35,7 @@ class SimulationParams:
         picture_width_px, picture_height_px: of the drawn pictures; the published 1280 x 720 takes four times as long.
         detector: what finds trunks and posts.
         lidar2d: whether the robot carries a 2D LiDAR, mounted as paper B's.
+        lidar3d: whether it carries a 3D LiDAR, mounted as the robot's settings say.
     """
 
     world_seed: int = 1
@@ -45,6 +46,7 @@ class SimulationParams:
     picture_height_px: int = 360
     detector: DetectorKind = DetectorKind.PIXELS
     lidar2d: bool = False
+    lidar3d: bool = False
 
     def world(self, site: SiteMap, vehicle: VehicleParams, start_ns: int) -> World:
         """The world of this simulation."""

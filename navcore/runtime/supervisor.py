@@ -35,7 +35,8 @@ class Supervisor:
         endpoints.prepare()
         self._lock = hold(robot.bus)
         self._robot, self._site_id = robot, site_id
-        specs = [spec for spec in table if robot.simulation is not None or not spec.simulated_only]
+        there = [spec for spec in table if robot.simulation is not None or not spec.simulated_only]
+        specs = [spec for spec in there if spec.wanted(robot)]
         self._children = [Child(spec, environment) for spec in specs]
         self._replier = Replier(endpoints.supervisor_requests)
 

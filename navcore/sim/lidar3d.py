@@ -15,6 +15,7 @@ from navcore.geometry.pinhole import rotation_from_rpy
 from navcore.geometry.point_cloud import PointCloud
 from navcore.geometry.se3 import SE3
 from navcore.sim.lidar3d_rays import Echoes, Optics, Rig, cast_turn, measure
+from navcore.sim.rays.fan import beams, hits
 from navcore.sim.rays.land_scene import LandScene, Part
 from navcore.sim.rays.shapes import SPOT_GAIN
 
@@ -100,6 +101,8 @@ class Lidar3dFaults:
 
 WORKING_3D = Lidar3dFaults()
 _RAIN_REACH_M = 6.0
+# Mean way of a ray in grass before a blade stops it, m.
+_GRASS_WAY_M = 0.3
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -122,16 +125,14 @@ class Lidar3d:
 
     def __init__(self, scene: LandScene, mount: LidarMount, params: Lidar3dParams, seed: int) -> None:
         self._scene, self._params, self._seed, self._mount = scene, params, seed, mount
-        p, order = params, np.argsort(np.argsort(params.elevations_deg))
-        elevations = np.radians(p.elevations_deg)
-        self._rings = order.astype(np.uint8)
-        self._cosines, self._sines = np.cos(elevations), np.sin(elevations)
+        p, rising = params, np.radians(sorted(params.elevations_deg))
+        self._beams = beams(rising, p.most_range)
+        self._fired = np.argsort(np.argsort(p.elevations_deg))  # ring of each beam in the order of firing
         self._azimuths = math.pi - 2.0 * math.pi * np.arange(p.columns) / p.columns
-        beams = len(elevations)
-        self._beam_s = p.beam_period_s * np.arange(beams)
+        self._beam_s = p.beam_period_s * np.arange(len(rising))
         last_s = (p.columns - 1) / p.columns * p.turn_s + self._beam_s[-1]
         self._ages = p.turn_s * np.arange(p.columns) / p.columns - last_s
-        self._offsets = p.beam_offset_std * np.random.default_rng((seed, 0)).standard_normal(beams)
+        self._offsets = p.beam_offset_std * np.random.default_rng((seed, 0)).standard_normal(len(rising))
         self._optics = Optics(
             least=p.least_range, most=p.most_range, strength=p.strength * 100.0**2, missing=p.missing,
             edge_reach=SPOT_GAIN / (2.0 * math.pi / p.columns), edge_gap=p.edge_gap, noise=p.noise, step=p.resolution,
@@ -152,11 +153,12 @@ class Lidar3d:
         rig = self._rig(self._knots(stamp_ns, stamps_ns, poses), faults)
         rng = np.random.default_rng((self._seed, 1, stamp_ns))
         shape = (len(self._ages), len(self._beam_s))
-        draws, normal = rng.random((3, *shape)), rng.standard_normal(shape)
+        draws, normal = rng.random((2, *shape)), rng.standard_normal(shape)
+        ways = rng.exponential(_GRASS_WAY_M, shape)
         echoes, told = _echoes(shape), _echoes(shape)
-        cast_turn(self._scene, self._optics, rig, draws[0], echoes)
+        cast_turn(self._scene, self._beams, rig, ways, hits(shape[1], len(self._scene.kinds)), echoes)
         echoes.distances[:] += np.where(echoes.distances > 0.0, self._offsets, 0.0)
-        measure(self._optics, echoes, draws[1], draws[2], normal, told)
+        measure(self._optics, echoes, draws[0], draws[1], normal, told)
         self._spoil(told, faults, rng)
         return self._told(stamp_ns, told)
 
@@ -179,7 +181,7 @@ class Lidar3d:
         return Rig(
             knots=knots, arm=np.array((m.x, m.y, m.z)),
             R_base_lidar=np.ascontiguousarray(m.R_base_lidar() @ rotation_from_rpy(*faults.turned)),
-            times=self._ages, azimuths=self._azimuths, cosines=self._cosines, sines=self._sines,
+            times=self._ages, azimuths=self._azimuths,
         )  # fmt: skip
 
     def _spoil(self, told: Echoes, faults: Lidar3dFaults, rng: np.random.Generator) -> None:
@@ -194,17 +196,18 @@ class Lidar3d:
 
     def _told(self, stamp_ns: int, told: Echoes) -> SimTurn:
         """Points in the order of firing."""
-        column, beam = np.nonzero(told.distances)
-        d, azimuth = told.distances[column, beam], self._azimuths[column]
-        flat = d * self._cosines[beam]
-        points = np.column_stack((flat * np.cos(azimuth), flat * np.sin(azimuth), d * self._sines[beam]))
+        column, shot = np.nonzero(told.distances[:, self._fired])
+        ring = self._fired[shot]
+        d, azimuth = told.distances[column, ring], self._azimuths[column]
+        flat = d * self._beams.cosines[ring]
+        points = np.column_stack((flat * np.cos(azimuth), flat * np.sin(azimuth), d * self._beams.sines[ring]))
         cloud = PointCloud(
             points=points,
-            times=self._ages[column] + self._beam_s[beam],
-            intensities=np.clip(np.rint(100.0 * told.light[column, beam]), 1.0, 255.0).astype(np.uint8),
-            rings=self._rings[beam],
+            times=self._ages[column] + self._beam_s[shot],
+            intensities=np.clip(np.rint(100.0 * told.light[column, ring]), 1.0, 255.0).astype(np.uint8),
+            rings=ring.astype(np.uint8),
         )
-        return SimTurn(stamp_ns=stamp_ns, cloud=cloud, parts=told.parts[column, beam].astype(np.uint8))
+        return SimTurn(stamp_ns=stamp_ns, cloud=cloud, parts=told.parts[column, ring].astype(np.uint8))
 
 
 def _echoes(shape: tuple[int, int]) -> Echoes:

@@ -8,18 +8,19 @@ from typing import NamedTuple
 import numpy as np
 
 from navcore.sim.rays.cast import GROUND, NOTHING
-from navcore.sim.rays.cast_over_land import GRASS, cast_over_land
+from navcore.sim.rays.fan import GRASS, Beams, Hits, cast_fan
 from navcore.sim.rays.grid import Ints
 from navcore.sim.rays.land_scene import ALBEDO, LandScene, Part
 from navcore.sim.rays.shapes import SPOT_GAIN, SPOT_M, squareness
-from navcore.sim.render.buffers import Floats
-from navcore.sim.render.compiled import compiled, inlined
+from navcore.sim.render.buffers import Floats, Vector
+from navcore.sim.render.compiled import compiled, inlined, uncounted
 
 # Blades stand in every direction; bare soil is rough and throws some light back even at a graze.
 _GRASS_SQUARE, _SOIL_SQUARE, _THREAD_SQUARE = 0.5, 0.12, 0.7
 # Share of the light on a round spot that a thread through its middle meets, per radius over half width.
 _THREAD_FILL = 4.0 / math.pi
-_GRASS_WAY_M = 0.3
+# Echoes as near as this to each other are one.
+_SAME_M = 0.05
 _GRASS_PART, _SOIL_PART, _MIXED_PART = int(Part.GRASS), int(Part.SOIL), int(Part.MIXED)
 _WIRE_PART, _SHOOT_PART, _FENCE_PART = int(Part.WIRE), int(Part.SHOOT), int(Part.FENCE)
 
@@ -51,7 +52,6 @@ class Rig(NamedTuple):
         knots: (K, 7) time, x, y, z, roll, pitch, yaw of the robot in `map`, times ascending, s; angles unwrapped.
         arm: (3,) the sensor in `base_link`, m. R_base_lidar: (3, 3).
         times: (A,) when each column of rays is fired, s, ascending. azimuths: (A,) rad.
-        cosines, sines: (C,) of the elevations in the order of firing.
     """
 
     knots: Floats
@@ -59,8 +59,6 @@ class Rig(NamedTuple):
     R_base_lidar: Floats
     times: Floats
     azimuths: Floats
-    cosines: Floats
-    sines: Floats
 
 
 class Echoes(NamedTuple):
@@ -72,20 +70,28 @@ class Echoes(NamedTuple):
 
 
 @compiled
-def cast_turn(scene: LandScene, optics: Optics, rig: Rig, grass: Floats, echoes: Echoes) -> None:
-    """All rays of a turn, in place; distance 0 for nothing. `grass` (A, C) are uniform numbers."""
-    R, origin, pose, knot = np.empty((3, 3)), np.empty(3), np.empty(6), 0
+def cast_turn(scene: LandScene, beams: Beams, rig: Rig, ways: Floats, hits: Hits, echoes: Echoes) -> None:
+    """All rays of a turn, in place; distance 0 for nothing. `ways` (A, C): how far, m, each ray gets in grass."""
+    R, place, pose, knot = np.empty((3, 3)), np.empty(3), np.empty(6), 0
     for i in range(len(rig.times)):
         knot = pose_at(rig.knots, rig.times[i], knot, pose)
-        place(pose, rig.arm, rig.R_base_lidar, R, origin)
+        put(pose, rig.arm, rig.R_base_lidar, R, place)
         ca, sa = math.cos(rig.azimuths[i]), math.sin(rig.azimuths[i])
-        for c in range(len(rig.cosines)):
-            x, y, z = rig.cosines[c] * ca, rig.cosines[c] * sa, rig.sines[c]
-            dx, dy = R[0, 0] * x + R[0, 1] * y + R[0, 2] * z, R[1, 0] * x + R[1, 1] * y + R[1, 2] * z
-            dz = R[2, 0] * x + R[2, 1] * y + R[2, 2] * z
-            way = -_GRASS_WAY_M * math.log(1.0 - grass[i, c])
-            t, light, part = echo(scene, optics.most, origin[0], origin[1], origin[2], dx, dy, dz, way)
-            echoes.distances[i, c], echoes.light[i, c], echoes.parts[i, c] = t, light, part
+        along = ca * R[0, 0] + sa * R[0, 1], ca * R[1, 0] + sa * R[1, 1], ca * R[2, 0] + sa * R[2, 1]
+        cast_column(
+            scene, beams, (place[0], place[1], place[2]), along, (R[0, 2], R[1, 2], R[2, 2]), ways, i, hits, echoes
+        )
+
+
+@uncounted
+def cast_column(
+    scene: LandScene, beams: Beams, origin: Vector, along: Vector, up: Vector, ways: Floats, i: int, hits: Hits,
+    echoes: Echoes,
+) -> None:  # fmt: skip
+    """Column i of a turn, in place."""
+    cast_fan(scene, beams, origin, along, up, ways[i], i, hits)
+    for b in range(len(hits.solid)):
+        echoes.distances[i, b], echoes.light[i, b], echoes.parts[i, b] = echo(scene, hits, b, origin)
 
 
 @inlined
@@ -100,7 +106,7 @@ def pose_at(knots: Floats, time: float, knot: int, pose: Floats) -> int:
 
 
 @inlined
-def place(pose: Floats, arm: Floats, R_base_lidar: Floats, R: Floats, origin: Floats) -> None:
+def put(pose: Floats, arm: Floats, R_base_lidar: Floats, R: Floats, origin: Floats) -> None:
     """The sensor's axes `R` and place `origin` in `map` of a robot at x, y, z, roll, pitch, yaw, in place."""
     cr, sr, cp, sp = math.cos(pose[3]), math.sin(pose[3]), math.cos(pose[4]), math.sin(pose[4])
     cy, sy = math.cos(pose[5]), math.sin(pose[5])
@@ -116,17 +122,15 @@ def place(pose: Floats, arm: Floats, R_base_lidar: Floats, R: Floats, origin: Fl
         origin[i] = pose[i] + b[0] * arm[0] + b[1] * arm[1] + b[2] * arm[2]
 
 
-@inlined
-def echo(
-    scene: LandScene, most: float, ox: float, oy: float, oz: float, dx: float, dy: float, dz: float, way: float
-) -> tuple[float, float, int]:
-    """The strongest echo of a ray: distance (0 for none), light at 1 m, `Part`."""
-    t, k, near, thread = cast_over_land(scene, ox, oy, oz, dx, dy, dz, most, way)
-    light, part = 0.0, _MIXED_PART
+@uncounted
+def echo(scene: LandScene, hits: Hits, b: int, origin: Vector) -> tuple[float, float, int]:
+    """The strongest echo of ray b: distance (0 for none), light at 1 m, `Part`."""
+    t, k, near, thread = hits.solid[b], hits.shapes[b], hits.thread[b], hits.threads[b]
+    light, part, dx, dy, dz = 0.0, _MIXED_PART, hits.rays[b, 0], hits.rays[b, 1], hits.rays[b, 2]
     if k >= 0:
         part = scene.parts[k]
-        square = squareness(scene.kinds[k], scene.shapes, k, ox + t * dx, oy + t * dy, oz + t * dz, dx, dy, dz)
-        light = ALBEDO[part] * square
+        x, y, z = origin[0] + t * dx, origin[1] + t * dy, origin[2] + t * dz
+        light = ALBEDO[part] * squareness(scene.kinds[k], scene.shapes, k, x, y, z, dx, dy, dz)
     elif k == GRASS:
         part, light = _GRASS_PART, ALBEDO[_GRASS_PART] * _GRASS_SQUARE
     elif k == GROUND:
@@ -140,7 +144,7 @@ def echo(
     return (t, light, part) if k != NOTHING else (0.0, 0.0, part)
 
 
-@compiled
+@uncounted
 def measure(
     optics: Optics, echoes: Echoes, lies: Floats, luck: Floats, normal: Floats, told: Echoes
 ) -> None:  # fmt: skip
@@ -160,7 +164,7 @@ def measure(
             told.distances[i, c], told.light[i, c], told.parts[i, c] = said if seen else 0.0, light, part
 
 
-@inlined
+@uncounted
 def beside_an_edge(optics: Optics, echoes: Echoes, i: int, j: int, c: int, lie: float) -> tuple[float, float, int]:
     """Distance, light and part of ray (i, c) whose spot may lie partly on what the ray beside it, (j, c), met.
 
@@ -171,7 +175,7 @@ def beside_an_edge(optics: Optics, echoes: Echoes, i: int, j: int, c: int, lie: 
     beside, other = echoes.distances[j, c], echoes.parts[j, c]
     if part == other or lie >= optics.edge_reach or t == 0.0 or beside == 0.0 or thin(part) or thin(other):
         return t, light, part
-    if abs(beside - t) > optics.edge_gap:
+    if not _SAME_M < abs(beside - t) <= optics.edge_gap:
         return t, light, part
     share = 0.5 * (1.0 - lie / optics.edge_reach)
     return t + share * (beside - t), light + share * (echoes.light[j, c] - light), _MIXED_PART

@@ -1,7 +1,7 @@
-"""Paper C's orchard by seed: a Y-trellised pear block, rows 6 m apart, trees 3 m, with headlands to turn on.
+"""Paper C's orchard by seed: a Y-trellised pear block, rows 6 m apart, trees 3 m, headlands to turn on.
 
-Every post and tree is surveyed where it stands, so the block is the same for every world's seed. Blocks to tune on and
-blocks to score on can never be the same.
+Every post and tree is surveyed where it stands, so the block is the same for every world's seed.
+Blocks to tune on and blocks to score on can never be the same.
 """
 
 from __future__ import annotations
@@ -67,8 +67,8 @@ class PearBlock:
         return build_orchard(self.site, self.orchard_params(season))
 
     def ground(self) -> Terrain:
-        """The land, the same in every season."""
-        return Terrain(self.site, self.terrain, np.random.default_rng((self.seed, 71)))
+        """The land, the same in every season and in a world of this place."""
+        return Terrain(self.site, self.terrain, np.random.default_rng(np.random.SeedSequence(self.seed).spawn(2)[1]))
 
     def trellised(self, season: Season, params: TrellisParams | None = None) -> Trellised:
         """The block for the 3D LiDAR."""

@@ -151,13 +151,25 @@ class Terrain:
 
     def tilt(self, x: float, y: float, yaw: float, wheelbase: float, track: float) -> tuple[float, float]:
         """Roll and pitch (rad, REP 103: nose down is positive) of a robot whose four wheels stand on the ground."""
-        c, s = math.cos(yaw), math.sin(yaw)
-        ax, ay, bx, by = c * wheelbase / 2, s * wheelbase / 2, -s * track / 2, c * track / 2
-        front_left, front_right = self.height(x + ax + bx, y + ay + by), self.height(x + ax - bx, y + ay - by)
-        rear_left, rear_right = self.height(x - ax + bx, y - ay + by), self.height(x - ax - bx, y - ay - by)
+        front_left, front_right, rear_left, rear_right = self._under_wheels(x, y, yaw, wheelbase, track)
         roll = (front_left + rear_left - front_right - rear_right) / (2 * track)
         pitch = (rear_left + rear_right - front_left - front_right) / (2 * wheelbase)
         return math.atan(roll), math.atan(pitch)
+
+    def rest(self, x: float, y: float, yaw: float, wheelbase: float, track: float) -> float:
+        """Height of the middle of a robot whose four wheels stand on the ground, m."""
+        return sum(self._under_wheels(x, y, yaw, wheelbase, track)) / 4.0
+
+    def _under_wheels(
+        self, x: float, y: float, yaw: float, wheelbase: float, track: float
+    ) -> tuple[float, float, float, float]:
+        """Heights under the wheels, front left, front right, rear left, rear right, m."""
+        c, s = math.cos(yaw), math.sin(yaw)
+        ax, ay, bx, by = c * wheelbase / 2, s * wheelbase / 2, -s * track / 2, c * track / 2
+        return (
+            self.height(x + ax + bx, y + ay + by), self.height(x + ax - bx, y + ay - by),
+            self.height(x - ax + bx, y - ay + by), self.height(x - ax - bx, y - ay - by),
+        )  # fmt: skip
 
 
 def _grid(site: SiteMap, cell: float) -> tuple[Floats, Floats]:

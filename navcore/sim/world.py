@@ -9,18 +9,19 @@ import numpy as np
 
 from navcore.errors import ContractError, NotFiniteError
 from navcore.geometry.lidar_mount import LidarMount, robot_lidar
-from navcore.geometry.pinhole import rotation_from_rpy
 from navcore.maps.site_map import SiteMap
 from navcore.messages import ImuSample, LidarScan, SimContact, SimFarm, SimTruth, TrueRow
+from navcore.sim.body_pose import antenna_state
 from navcore.sim.canopy import Canopy, CanopyParams
 from navcore.sim.contacts import ContactDetector
-from navcore.sim.gnss_receiver import AntennaState, GnssReceiver, GnssReceiverParams
+from navcore.sim.gnss_receiver import GnssReceiver, GnssReceiverParams
 from navcore.sim.imu import Imu, ImuParams
 from navcore.sim.lidar2d import WORKING, Lidar2d, Lidar2dFaults, Lidar2dParams
 from navcore.sim.map_error import MapErrorParams, perturb
 from navcore.sim.orchard import OrchardParams, build_orchard
 from navcore.sim.parking import parked
 from navcore.sim.terrain import SURFACE_TRAITS, Surface, Terrain, TerrainParams
+from navcore.sim.trellis.trellised import Trellised, trellised
 from navcore.sim.vehicle_dynamics import VehicleDynamics, VehicleDynamicsParams, WheelState
 from navcore.vehicle import VehicleParams
 
@@ -35,6 +36,7 @@ class WorldParams:
 
     Attributes:
         seed: of everything random; it also replaces the orchard's own seed.
+        place_seed: of the land and what stands on it, for several drives over the same place; None is `seed`.
         start: (x, y, yaw) of the robot in the true world; None parks it at the warehouse, not quite as drawn.
         parking_std_m, parking_std_deg: 1-sigma of that.
         payload: on the robot, kg.
@@ -43,6 +45,7 @@ class WorldParams:
     """
 
     seed: int = 1
+    place_seed: int | None = None
     start: tuple[float, float, float] | None = None
     parking_std_m: float = 0.10
     parking_std_deg: float = 2.0
@@ -111,21 +114,22 @@ class World:
     """The true site and the robot on it. Same arguments and same calls: the same outputs, bit for bit.
 
     Attributes:
-        site: the true site, perturbed from the drawn one. orchard: what stands on it.
+        site: the true site, perturbed from the drawn one. terrain: its ground. orchard: what stands on it.
         faults: what is broken now.
         touched: all contacts so far.
     """
 
     def __init__(self, site: SiteMap, vehicle: VehicleParams, params: WorldParams, start_ns: int = 0) -> None:
         # One generator per part: switching one part off leaves all others as they were.
-        streams = np.random.SeedSequence(params.seed).spawn(7)
+        place_seed = params.seed if params.place_seed is None else params.place_seed
+        streams = [*np.random.SeedSequence(place_seed).spawn(2), *np.random.SeedSequence(params.seed).spawn(7)[2:]]
         map_rng, ground_rng, drive_rng, imu_rng, gnss_rng, park_rng, lidar_rng = map(np.random.default_rng, streams)
         self._vehicle, self._start_ns, self._now_ns, self._steps = vehicle, start_ns, start_ns, 0
         self.site = perturb(site, params.map_error, map_rng)
-        self._terrain = Terrain(self.site, params.terrain, ground_rng)
-        orchard = build_orchard(self.site, replace(params.orchard, seed=params.seed))
+        self.terrain = Terrain(self.site, params.terrain, ground_rng)
+        orchard = build_orchard(self.site, replace(params.orchard, seed=place_seed))
         # A scan meets plants above their feet, where the slope matters; pictures are read by the feet.
-        self.orchard = replace(orchard, uphill=self._terrain.slope) if params.lidar2d else orchard
+        self.orchard = replace(orchard, uphill=self.terrain.slope) if params.lidar2d else orchard
         self.faults = WorldFaults()
         self.touched: list[SimContact] = []
         pose = parked(self.site, params.start, params.parking_std_m, params.parking_std_deg, park_rng)
@@ -186,8 +190,8 @@ class World:
     def _feel_ground(self) -> tuple[float, float, Surface]:
         """Roll and pitch (rad) of the ground under the wheels, and what it is made of."""
         d, body = self._drive, self._vehicle
-        roll, pitch = self._terrain.tilt(d.x, d.y, d.yaw, body.wheelbase, body.track)
-        return roll, pitch, self._terrain.surface(d.x, d.y)
+        roll, pitch = self.terrain.tilt(d.x, d.y, d.yaw, body.wheelbase, body.track)
+        return roll, pitch, self.terrain.surface(d.x, d.y)
 
     def _sample_imu(self) -> None:
         roll, pitch, surface = self._ground
@@ -205,32 +209,22 @@ class World:
         if self.faults.gnss_silent:
             return
         elapsed_s = (self._now_ns - self._start_ns) * 1e-9
-        faults = self.faults
-        self._gnss.epoch(
-            self._now_ns, elapsed_s, self._antenna(), frozen=faults.gnss_frozen, starved=faults.corrections_lost
-        )
+        drive, faults, ground = self._drive, self.faults, self.terrain.height(self._drive.x, self._drive.y)
+        antenna = antenna_state(drive, self._imu.roll, self._imu.pitch, self._vehicle, ground, faults.gnss_off)
+        self._gnss.epoch(self._now_ns, elapsed_s, antenna, frozen=faults.gnss_frozen, starved=faults.corrections_lost)
 
-    def _antenna(self) -> AntennaState:
-        d, body = self._drive, self._vehicle
-        lever = rotation_from_rpy(self._imu.roll, self._imu.pitch, d.yaw) @ (
-            body.antenna_x, body.antenna_y, body.antenna_height,
-        )  # fmt: skip
-        c, s = math.cos(d.yaw), math.sin(d.yaw)
-        vx = d.v * c - d.lateral_v * s - d.omega * float(lever[1])
-        vy = d.v * s + d.lateral_v * c + d.omega * float(lever[0])
-        return AntennaState(
-            x=d.x + float(lever[0]) + self.faults.gnss_off[0],
-            y=d.y + float(lever[1]) + self.faults.gnss_off[1],
-            z=float(lever[2]),
-            vx=vx,
-            vy=vy,
-            yaw=d.yaw,
-            ground=self._terrain.height(d.x, d.y),
-        )
+    @property
+    def terrain(self) -> Terrain:
+        """The land."""
+        return self._terrain
+
+    def trellised(self) -> Trellised:
+        """All that stands here as a 3D LiDAR sees it."""
+        return trellised(self.site, self.orchard, self._terrain)
 
     def _truth(self) -> SimTruth:
         d = self._drive
-        land_roll, land_pitch = self._terrain.land_tilt(d.yaw)
+        land_roll, land_pitch = self.terrain.land_tilt(d.yaw)
         return SimTruth(
             stamp_ns=self._now_ns, x=d.x, y=d.y, yaw=d.yaw, roll=self._imu.roll - land_roll,
             pitch=self._imu.pitch - land_pitch, v=d.v, omega=d.omega,

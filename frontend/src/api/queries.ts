@@ -2,7 +2,7 @@
 import { keepPreviousData, queryOptions } from "@tanstack/react-query";
 
 import { get, post } from "./client";
-import type { Job, Mission, MissionDocument, Preview, Robot, RunDetail, RunDocument, RunTrack, SiteDocument, SiteSummary, TrunkMap } from "./types";
+import type { Job, Map3d, Mission, MissionDocument, Preview, Robot, RunDetail, RunDocument, RunMap3d, RunTrack, SiteDocument, SiteSummary, TrunkMap } from "./types";
 
 export const sitesQuery = queryOptions({ queryKey: ["sites"], queryFn: ({ signal }) => get<SiteSummary[]>("/api/sites", signal) });
 
@@ -70,3 +70,15 @@ export const trackQuery = (id: string) =>
     queryFn: ({ signal }) => get<RunTrack>(`/api/runs/${id}/track`, signal),
     staleTime: 30_000,
   });
+
+/** Of a run; asked again while it is made. */
+export const runMap3dQuery = (runId: string) =>
+  queryOptions({
+    queryKey: ["map3d", runId],
+    queryFn: ({ signal }) => get<RunMap3d>(`/api/runs/${runId}/map3d`, signal),
+    refetchInterval: (query) => (query.state.data?.job?.state === "running" ? 1000 : false),
+  });
+
+/** Of a farm, the newest first. */
+export const maps3dQuery = (siteId: string) =>
+  queryOptions({ queryKey: ["maps3d", siteId], queryFn: ({ signal }) => get<Map3d[]>(`/api/sites/${siteId}/maps3d`, signal) });

@@ -296,6 +296,50 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/runs/{run_id}/map3d": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Run Map3D
+         * @description Whether the run can be mapped, how it goes, and what came of it.
+         */
+        get: operations["read_run_map3d_api_runs__run_id__map3d_get"];
+        put?: never;
+        /**
+         * Start Map3D
+         * @description Make the 3D map of a run that has ended, or go on with it; 409 while another one is made.
+         */
+        post: operations["start_map3d_api_runs__run_id__map3d_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/runs/{run_id}/map3d/job": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        post?: never;
+        /**
+         * Stop Map3D
+         * @description Stop making it; what was done is kept.
+         */
+        delete: operations["stop_map3d_api_runs__run_id__map3d_job_delete"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/runs/{run_id}/track": {
         parameters: {
             query?: never;
@@ -460,7 +504,7 @@ export interface paths {
         post?: never;
         /**
          * Delete Site
-         * @description Delete a site, its missions and its picture. Runs stay.
+         * @description Delete a site, its missions, its picture and its 3D maps. Runs stay.
          */
         delete: operations["delete_site_api_sites__site_id__delete"];
         options?: never;
@@ -480,6 +524,66 @@ export interface paths {
          * @description The site as GeoJSON.
          */
         get: operations["export_site_api_sites__site_id__geojson_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{site_id}/maps3d": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Maps3D
+         * @description The 3D maps of a site, the newest first.
+         */
+        get: operations["list_maps3d_api_sites__site_id__maps3d_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{site_id}/maps3d/{run_id}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        post?: never;
+        /**
+         * Delete Map3D
+         * @description Throw a map away, or what was begun of one; the run stays and can be mapped again.
+         */
+        delete: operations["delete_map3d_api_sites__site_id__maps3d__run_id__delete"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{site_id}/maps3d/{run_id}/files/{name}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Download Map3D
+         * @description map.ndt, cloud.laz, cloud.pcd or report.json.
+         */
+        get: operations["download_map3d_api_sites__site_id__maps3d__run_id__files__name__get"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1109,6 +1213,69 @@ export interface components {
          * @enum {string}
          */
         LogFormat: "mcap" | "csv" | "geojson" | "gpx";
+        /**
+         * Map3dDocument
+         * @description A map that was made of a run.
+         *
+         *     Attributes:
+         *         driven: m. rtk_share: 0 to 1. fix_rms, loop_rms: m, None where there was nothing to compare with.
+         *         doubts: sentences that say what the map is not good for.
+         */
+        Map3dDocument: {
+            /** Doubts */
+            doubts: string[];
+            /** Driven */
+            driven: number;
+            /** Files */
+            files: components["schemas"]["Map3dFile"][];
+            /** Fix Rms */
+            fix_rms: number | null;
+            /** Georeferenced */
+            georeferenced: boolean;
+            /** Hectares */
+            hectares: number;
+            /** Keyframes */
+            keyframes: number;
+            /** Loop Rms */
+            loop_rms: number | null;
+            /** Loops Taken */
+            loops_taken: number;
+            /**
+             * Made
+             * Format: date-time
+             */
+            made: string;
+            /** Points */
+            points: number;
+            /** Rtk Share */
+            rtk_share: number;
+            /**
+             * Run Id
+             * @description Made by the station
+             */
+            run_id: string;
+        };
+        /**
+         * Map3dFile
+         * @description One of a map's files.
+         */
+        Map3dFile: {
+            /** Name */
+            name: string;
+            /** Size Bytes */
+            size_bytes: number;
+        };
+        /**
+         * Map3dJob
+         * @description A map under way. `message` says what is being done, or what to do about a failure.
+         */
+        Map3dJob: {
+            /** Message */
+            message: string;
+            /** Progress */
+            progress: number;
+            state: components["schemas"]["JobState"];
+        };
         /**
          * Mission
          * @description Warehouse -> outbound waypoints -> rows -> inbound waypoints -> warehouse.
@@ -1953,6 +2120,23 @@ export interface components {
             t_s: number;
             /** Text */
             text: string;
+        };
+        /**
+         * RunMap3d
+         * @description The 3D map of a run.
+         *
+         *     Attributes:
+         *         clouds: number of the run's clouds; None where its log has no index to tell.
+         *         begun: part of the work is there already; it goes on from there.
+         *         job: that makes it now, or that failed since the station began. map: what was made.
+         */
+        RunMap3d: {
+            /** Begun */
+            begun: boolean;
+            /** Clouds */
+            clouds: number | null;
+            job: components["schemas"]["Map3dJob"] | null;
+            map: components["schemas"]["Map3dDocument"] | null;
         };
         /**
          * RunOutcome
@@ -2897,6 +3081,97 @@ export interface operations {
             };
         };
     };
+    read_run_map3d_api_runs__run_id__map3d_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                run_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RunMap3d"];
+                };
+            };
+            /** @description Any error */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorDocument"];
+                };
+            };
+        };
+    };
+    start_map3d_api_runs__run_id__map3d_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                run_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            202: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RunMap3d"];
+                };
+            };
+            /** @description Any error */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorDocument"];
+                };
+            };
+        };
+    };
+    stop_map3d_api_runs__run_id__map3d_job_delete: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                run_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description Any error */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorDocument"];
+                };
+            };
+        };
+    };
     track_api_runs__run_id__track_get: {
         parameters: {
             query?: never;
@@ -3257,6 +3532,98 @@ export interface operations {
                         [key: string]: unknown;
                     };
                 };
+            };
+            /** @description Any error */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorDocument"];
+                };
+            };
+        };
+    };
+    list_maps3d_api_sites__site_id__maps3d_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                site_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Map3dDocument"][];
+                };
+            };
+            /** @description Any error */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorDocument"];
+                };
+            };
+        };
+    };
+    delete_map3d_api_sites__site_id__maps3d__run_id__delete: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                site_id: string;
+                run_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description Any error */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorDocument"];
+                };
+            };
+        };
+    };
+    download_map3d_api_sites__site_id__maps3d__run_id__files__name__get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                site_id: string;
+                run_id: string;
+                name: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
             };
             /** @description Any error */
             default: {

@@ -5,6 +5,7 @@ import { Link } from "wouter";
 import type { RunDetail } from "../api/types";
 import { bytes, moment } from "../ui/format";
 import { Outcome, RunFigures } from "./RunFigures";
+import { Map3d } from "./Map3d";
 import { MapTrunks } from "./MapTrunks";
 import css from "./runs.module.css";
 
@@ -28,6 +29,7 @@ export function RunHeader({ run }: { run: RunDetail }) {
       <RunFigures run={run} full />
       <Downloads run={run} />
       <MapTrunks run={run} />
+      <Map3d run={run} />
     </header>
   );
 }

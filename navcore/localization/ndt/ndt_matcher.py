@@ -3,7 +3,7 @@
 Published NDT descends once, on one scale, with a score as steep as the cells' own: half a metre off, most points
 lie in no Gaussian and pull nowhere. Here scores are looked at first from places about the guess; each descent then
 starts flat, so that far points pull too, and ends steep, so that leaves and people do not; and cells do not pull
-points to their middles (`CellParams.debiased`).
+points to their middles (`CellParams.uniform`).
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from navcore.geometry.se3 import SE3
 from navcore.localization.ndt.descent import descend
 from navcore.localization.ndt.registration import Floats, Registration
 from navcore.localization.ndt.start_search import StartSearchParams, best_start
-from navcore.localization.ndt.uncertainty import UncertaintyParams, covariance_of, weak_directions
+from navcore.localization.ndt.uncertainty import UncertaintyParams, covariance_of, held, weak_directions
 from navcore.maps.ndt.ndt_map import NdtMap
 
 
@@ -56,7 +56,7 @@ class NdtMatcherParams:
     Attributes:
         search: about the guess, on the coarsest cells.
         stages: from coarse to fine (chosen on farms whose seeds no figure rests on).
-        guess_std, guess_turn_std: 1-sigma of the guess, m and rad: it holds the pose where the map says nothing.
+        guess_std, guess_turn_std: 1-sigma of the guess, m and rad: it stays along directions that the map does not tell.
         least_points: a scan has, at least 6. least_overlap: share of them that must lie in cells, 0 to 1.
         uncertainty: of the result.
     """
@@ -114,9 +114,11 @@ class NdtMatcher:
             overlap = 0.0 if last is None else last.overlap
             return self._unknown(guess, f"Only {overlap:.0%} of the scan's points lie where the map has any.", steps)
         covariance = covariance_of(last.H, self._hold, p.uncertainty)
+        weak = weak_directions(covariance, p.uncertainty)
+        t = pose[:, 3] + sum(w.direction * (w.direction @ (guess.t - pose[:, 3])) for w in weak)
         return Registration(
-            T_target_source=SE3(pose[:, :3].copy(), pose[:, 3].copy()), covariance=covariance, score=last.score,
-            overlap=last.overlap, iterations=steps, weak=weak_directions(covariance, p.uncertainty),
+            T_target_source=SE3(pose[:, :3].copy(), np.asarray(t)), covariance=held(covariance, weak, p.guess_std),
+            score=last.score, overlap=last.overlap, iterations=steps, weak=weak,
             reason=None if last.rested else f"The match did not come to rest within {p.stages[-1].steps} steps.",
         )  # fmt: skip
 

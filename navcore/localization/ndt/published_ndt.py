@@ -36,7 +36,7 @@ class PublishedNdtParams:
     enough: float = 0.001
     steps: int = 35
     least_points: int = 100
-    cells: CellParams = field(default_factory=lambda: CellParams(flattest=0.01, debiased=False))
+    cells: CellParams = field(default_factory=lambda: CellParams(flattest=0.01, uniform=0.0))
 
     @property
     def d2(self) -> float:

@@ -22,6 +22,8 @@ class StartSearchParams:
         step: between two places, m, above 0. turn_step: between two headings, rad, above 0.
         points: of the scan that are looked at, about, at least 1.
         steepness: of the score, see `normal_equations`.
+        doubt: share of its score that the furthest place loses, and the furthest heading, 0 to 1: where all places
+            look alike, as along a smooth corridor, the guess stays.
     """
 
     reach: float = 0.8
@@ -30,6 +32,7 @@ class StartSearchParams:
     turn_step: float = math.radians(4.0)
     points: int = 250
     steepness: float = 0.3
+    doubt: float = 0.05
 
 
 def best_start(points: Floats, guess: Floats, cells: Cells, params: StartSearchParams) -> Floats:
@@ -38,7 +41,8 @@ def best_start(points: Floats, guess: Floats, cells: Cells, params: StartSearchP
     if len(shifts) * len(turns) == 1:
         return guess.copy()
     stride = max(1, len(points) // params.points)
-    return np.asarray(_best(points, stride, guess, cells, params.steepness, shifts, turns))
+    kept = _kept(shifts, turns, params.doubt)
+    return np.asarray(_best(points, stride, guess, cells, params.steepness, shifts, turns, kept))
 
 
 @lru_cache(maxsize=16)
@@ -57,18 +61,26 @@ def _turns(turn: float, step: float) -> Floats:
     return np.array(sorted(range(-n, n + 1), key=abs)) * step
 
 
+def _kept(shifts: Floats, turns: Floats, doubt: float) -> Floats:
+    """What each score keeps, (turns, shifts)."""
+    far, turned = (shifts**2).sum(axis=1), turns**2
+    lost = far[None, :] / max(float(far.max()), 1e-12) + turned[:, None] / max(float(turned.max()), 1e-12)
+    return np.asarray(1.0 - doubt * lost)
+
+
 @njit(cache=True, nogil=True)
 def _best(
-    points: Floats, stride: int, guess: Floats, cells: Cells, steepness: float, shifts: Floats, turns: Floats
-) -> Floats:
+    points: Floats, stride: int, guess: Floats, cells: Cells, steepness: float, shifts: Floats, turns: Floats,
+    kept: Floats,
+) -> Floats:  # fmt: skip
     best, top = guess.copy(), -1.0
     R0, t = np.ascontiguousarray(guess[:, :3]), np.empty(3)
-    for turn in turns:
-        c, s = math.cos(turn), math.sin(turn)
+    for m in range(len(turns)):
+        c, s = math.cos(turns[m]), math.sin(turns[m])
         R = np.array(((c, -s, 0.0), (s, c, 0.0), (0.0, 0.0, 1.0))) @ R0
         for n in range(len(shifts)):
             t[0], t[1], t[2] = guess[0, 3] + shifts[n, 0], guess[1, 3] + shifts[n, 1], guess[2, 3]
-            score = weight_sum(points, stride, R, t, cells, steepness)
+            score = weight_sum(points, stride, R, t, cells, steepness) * kept[m, n]
             if score > top:
                 best[:, :3], best[:, 3], top = R, t, score
     return best

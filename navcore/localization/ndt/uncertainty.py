@@ -20,7 +20,7 @@ class UncertaintyParams:
         weak: 1-sigma from which a direction is called weak, m.
     """
 
-    points_as_one: float = 50.0
+    points_as_one: float = 20.0
     floor: float = 0.003
     floor_turn: float = 1e-4
     weak: float = 0.1
@@ -31,6 +31,16 @@ def covariance_of(H: Floats, hold: Floats, params: UncertaintyParams) -> Floats:
     inverse = np.linalg.inv(H / params.points_as_one + np.diag(hold))
     floor = np.repeat((params.floor**2, params.floor_turn**2), 3)
     return np.asarray((inverse + inverse.T) / 2.0 + np.diag(floor))
+
+
+def held(covariance: Floats, weak: tuple[WeakDirection, ...], std: float) -> Floats:
+    """The covariance where the pose was put back onto a guess of 1-sigma `std`, m, along the weak directions."""
+    A, back = np.eye(6), np.zeros((6, 6))
+    for w in weak:
+        along = np.outer(w.direction, w.direction)
+        A[:3, :3] -= along
+        back[:3, :3] += std**2 * along
+    return np.asarray(A @ covariance @ A.T + back)
 
 
 def weak_directions(covariance: Floats, params: UncertaintyParams) -> tuple[WeakDirection, ...]:

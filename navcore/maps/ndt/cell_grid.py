@@ -24,14 +24,16 @@ class CellParams:
         flattest: least ratio of a Gaussian's smallest to its largest variance, 0 to 1 (0.001: a post keeps its
             thickness; Magnusson 2009 has 0.01).
         floor: least variance, m^2, above 0: (1 cm)^2, what a LiDAR's noise leaves.
-        debiased: take off the information that a cell uniformly filled would have, 12 / size^2: else a wall or
-            the ground pulls points to the middle of each cell along itself.
+        uniform: so many times the information that a cell uniformly filled has, 12 / size^2, is taken off, at least
+            0: else a wall or the ground pulls points to the middle of each cell along itself. 1 would be enough if
+            cells were filled evenly; what chance leaves of it adds up to a direction that seems known (0 in
+            Magnusson 2009).
     """
 
     least: int = 6
     flattest: float = 0.001
     floor: float = 1e-4
-    debiased: bool = True
+    uniform: float = 1.5
 
 
 class CellGrid:
@@ -104,7 +106,7 @@ class CellGrid:
         return CellGrid.of(self.size, self.keys[kept], self.sums[kept], self._params)
 
     def _refresh(self, which: Slots, p: CellParams) -> None:
-        uniform = 12.0 / self.size**2 if p.debiased else 0.0
+        uniform = p.uniform * 12.0 / self.size**2
         refresh(self._sums, self._gaussians, which, float(p.least), p.flattest, p.floor, uniform)
 
     def _grow(self) -> None:

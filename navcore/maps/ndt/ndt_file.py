@@ -105,7 +105,7 @@ def _checked(data: bytes, source: str) -> tuple[_Header, bytes]:
 
 
 def _sound(cells: CellParams) -> bool:
-    return cells.least >= 2 and 0.0 <= cells.flattest <= 1.0 and 0.0 < cells.floor < 1.0
+    return cells.least >= 2 and 0.0 <= cells.flattest <= 1.0 and 0.0 < cells.floor < 1.0 and cells.uniform >= 0.0
 
 
 def _unpacked(body: bytes, size: int, source: str) -> bytes:

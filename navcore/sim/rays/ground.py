@@ -5,11 +5,12 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from navcore.sim.render.buffers import Floats
-from navcore.sim.render.compiled import compiled, inlined
+import numpy as np
 
-# The march assumes no rise steeper than this, and steps between so many metres.
-_STEEPEST, _SHORTEST_STEP, _LONGEST_STEP = 0.25, 0.1, 1.5
+from navcore.sim.render.buffers import Floats, Floats32
+from navcore.sim.render.compiled import compiled, index, uncounted
+
+_SHORTEST_STEP_M = 0.1
 # Lower grass is soil.
 _BARE = 0.015
 
@@ -19,29 +20,31 @@ class Ground(NamedTuple):
 
     Attributes:
         x, y: of the first height, m. per_m: heights per metre.
+        steepest: hardly any rise is steeper.
         heights: (R, C) of the soil, m. tops: (R, C) of the grass on it, m.
     """
 
     x: float
     y: float
     per_m: float
-    heights: Floats
-    tops: Floats
+    steepest: float
+    heights: Floats32
+    tops: Floats32
 
 
-@inlined
-def height_at(ground: Ground, heights: Floats, x: float, y: float) -> float:
-    """Bilinear, of `ground.heights` or `ground.tops`, m."""
-    fx = min(max((x - ground.x) * ground.per_m, 0.0), heights.shape[1] - 1.001)
-    fy = min(max((y - ground.y) * ground.per_m, 0.0), heights.shape[0] - 1.001)
-    column, row = int(fx), int(fy)
-    fx, fy = fx - column, fy - row
-    near = (1.0 - fx) * heights[row, column] + fx * heights[row, column + 1]
-    far = (1.0 - fx) * heights[row + 1, column] + fx * heights[row + 1, column + 1]
+@uncounted
+def height_at(heights: Floats32, fx: float, fy: float) -> float:
+    """Bilinear, `fx` columns and `fy` rows from the first height, m."""
+    fx = min(max(fx, 0.0), heights.shape[1] - 1.001)
+    fy = min(max(fy, 0.0), heights.shape[0] - 1.001)
+    column, row = index(fx), index(fy)
+    fx, fy, right, above = fx - column, fy - row, index(column + 1), index(row + 1)
+    near = (1.0 - fx) * heights[row, column] + fx * heights[row, right]
+    far = (1.0 - fx) * heights[above, column] + fx * heights[above, right]
     return float((1.0 - fy) * near + fy * far)
 
 
-@compiled
+@uncounted
 def meet_ground(
     ground: Ground, ox: float, oy: float, oz: float, dx: float, dy: float, dz: float, reach: float, way: float
 ) -> tuple[float, bool]:
@@ -49,28 +52,38 @@ def meet_ground(
 
     `way` is how far, m, the ray gets in grass before a blade stops it.
     """
-    t, before, over_before, fall = 0.0, 0.0, 0.0, _STEEPEST - dz
-    over = oz - height_at(ground, ground.tops, ox, oy)
+    t, before, over_before, fall = 0.0, 0.0, 0.0, ground.steepest - dz
+    soils, tops, per_m = ground.heights, ground.tops, ground.per_m
+    x0, y0, gain_x, gain_y = (ox - ground.x) * per_m, (oy - ground.y) * per_m, dx * per_m, dy * per_m
+    over = oz - height_at(tops, x0, y0)
     while over > 0.0:
         if t >= reach or fall <= 0.0:
             return math.inf, False
         before, over_before = t, over
-        t += min(max(over / fall, _SHORTEST_STEP), _LONGEST_STEP)
-        over = oz + t * dz - height_at(ground, ground.tops, ox + t * dx, oy + t * dy)
+        t += max(over / fall, _SHORTEST_STEP_M)
+        over = oz + t * dz - height_at(tops, x0 + t * gain_x, y0 + t * gain_y)
     t -= (t - before) * over / (over - over_before) if over < over_before else 0.0
-    x, y, z = ox + t * dx, oy + t * dy, oz + t * dz
-    soil = height_at(ground, ground.heights, x, y)
-    if height_at(ground, ground.tops, x, y) - soil < _BARE:
+    soil = height_at(soils, x0 + t * gain_x, y0 + t * gain_y)
+    if height_at(tops, x0 + t * gain_x, y0 + t * gain_y) - soil < _BARE:
         return t, False
-    above = z - soil
-    below = z + way * dz - height_at(ground, ground.heights, x + way * dx, y + way * dy)
+    above, on = oz + t * dz - soil, t + way
+    below = oz + on * dz - height_at(soils, x0 + on * gain_x, y0 + on * gain_y)
     if below > 0.0:
-        return t + way, True
+        return on, True
     return t + way * above / max(above - below, 1e-9), False
 
 
 @compiled
 def heights_under(ground: Ground, points: Floats, out: Floats) -> None:
-    """Heights (N,) of the soil under points (N, 2) or (N, 3), m, in place."""
+    """Heights (N,) of the soil under points (N, 2), m, in place."""
     for i in range(len(points)):
-        out[i] = height_at(ground, ground.heights, points[i, 0], points[i, 1])
+        out[i] = height_at(
+            ground.heights, (points[i, 0] - ground.x) * ground.per_m, (points[i, 1] - ground.y) * ground.per_m
+        )
+
+
+def on_ground(ground: Ground, points: Floats) -> Floats:
+    """Height (N,) of the soil under points (N, 2) or (N, 3), m."""
+    out = np.empty(len(points))
+    heights_under(ground, np.ascontiguousarray(points[:, :2]), out)
+    return out

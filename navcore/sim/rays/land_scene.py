@@ -7,9 +7,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from navcore.sim.rays.grid import Grid, Ints
+from navcore.sim.rays.grid import Ints
 from navcore.sim.rays.ground import Ground
-from navcore.sim.render.buffers import Floats
+from navcore.sim.rays.plan_grid import PlanGrid
+from navcore.sim.render.buffers import Floats, Floats32
 
 
 class Part(IntEnum):
@@ -51,6 +52,7 @@ class LandScene(NamedTuple):
     Attributes:
         shapes: (N, 15) as in `shapes`. kinds: (N,) BEAM, CARD, PANEL, or THREAD for what is thinner than a LiDAR's
             spot. parts: (N,) `Part`.
+        boxes: (N, 6) middle and half extent of the box about each.
         grid: over all of them.
         ground: what they stand on.
     """
@@ -58,5 +60,6 @@ class LandScene(NamedTuple):
     shapes: Floats
     kinds: Ints
     parts: Ints
-    grid: Grid
+    boxes: Floats32
+    grid: PlanGrid
     ground: Ground

@@ -1,1 +1,1 @@
-"""A Y-trellis and all around it as a LiDAR sees it: posts and wires that stay, leaves, grass and shoots that do not."""
+"""A Y-trellis as a LiDAR sees it: posts and wires that stay, leaves, grass and shoots that do not."""

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter
 
-from navcore.sim.rays.ground import Ground, heights_under
+from navcore.sim.rays.ground import Ground
 from navcore.sim.terrain import Surface, TerrainGrid
 from navcore.sim.trellis.growth import Growth
 
@@ -14,6 +14,7 @@ Floats = NDArray[np.float64]
 
 # Half width of the strip under the trees that is kept free of grass, m.
 _STRIP_M = 0.5
+_GRASS_RISE = 0.04
 # How much of the alley's grass grows on each surface.
 _COVER = {Surface.DIRT: 0.1, Surface.GRASS: 1.0, Surface.WET: 1.0, Surface.SOIL: 0.35}
 
@@ -23,20 +24,22 @@ def grown_ground(grid: TerrainGrid, lines: Floats, growth: Growth, rng: np.rando
     cover = np.array([_COVER[s] for s in Surface])[grid.surfaces] * growth.grass
     cover[_under_lines(grid, lines)] = growth.weeds
     cover = gaussian_filter(cover, 0.2 / grid.cell, truncate=3.0) * _patches(grid, rng)
-    return Ground(grid.x, grid.y, 1.0 / grid.cell, np.ascontiguousarray(grid.heights), grid.heights + cover)
+    return _ground(grid, grid.heights + cover)
 
 
 def bare_ground(grid: TerrainGrid) -> Ground:
     """The soil alone."""
-    heights = np.ascontiguousarray(grid.heights)
-    return Ground(grid.x, grid.y, 1.0 / grid.cell, heights, heights)
+    return _ground(grid, grid.heights)
 
 
-def on_ground(ground: Ground, points: Floats) -> Floats:
-    """Height (N,) of the soil under points (N, 2), m."""
-    out = np.empty(len(points))
-    heights_under(ground, np.ascontiguousarray(points[:, :2]), out)
-    return out
+def _ground(grid: TerrainGrid, tops: Floats) -> Ground:
+    """With the rise of the soil that only one place in a thousand exceeds over 0.6 m, and a little for the grass."""
+    step = max(round(0.6 / grid.cell), 1)
+    h = grid.heights
+    rises = [np.abs(h[step:] - h[:-step]).ravel(), np.abs(h[:, step:] - h[:, :-step]).ravel()]
+    steepest = float(np.quantile(np.concatenate(rises), 0.999)) / (step * grid.cell)
+    heights, tops32 = np.ascontiguousarray(grid.heights, np.float32), np.ascontiguousarray(tops, np.float32)
+    return Ground(grid.x, grid.y, 1.0 / grid.cell, steepest + _GRASS_RISE, heights, tops32)
 
 
 def _under_lines(grid: TerrainGrid, lines: Floats) -> NDArray[np.bool_]:

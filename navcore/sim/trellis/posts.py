@@ -8,9 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from navcore.sim.orchard import Orchard
-from navcore.sim.rays.ground import Ground
+from navcore.sim.rays.ground import Ground, on_ground
 from navcore.sim.rays.land_scene import Part
-from navcore.sim.trellis.ground import on_ground
 from navcore.sim.trellis.shapes import Shapes, rods
 
 Floats = NDArray[np.float64]

@@ -7,9 +7,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from navcore.sim.rays.grid import lay_grid
-from navcore.sim.rays.ground import Ground
+from navcore.sim.rays.ground import Ground, on_ground
 from navcore.sim.rays.land_scene import LandScene, Part
+from navcore.sim.rays.plan_grid import lay_plan_grid
 from navcore.sim.rays.shapes import BEAM, CARD, NUMBERS, PANEL, SPOT_GAIN, SPOT_M, THREAD
 
 Floats = NDArray[np.float64]
@@ -17,6 +17,7 @@ Ints = NDArray[np.int64]
 
 # Thinner rods do not fill a LiDAR's spot. Beyond so many metres a thread is met a little less often than it should.
 _THREAD_RADIUS_M, _THREAD_SEEN_M = 0.006, 15.0
+_LIDAR_HEIGHT_M, _TILE_M = 0.6, 1.0
 
 
 class Shapes(NamedTuple):
@@ -63,10 +64,19 @@ def panels(corners: Floats, part: Part) -> Shapes:
     return _shapes(np.full(len(corners), PANEL), numbers, part, low, high)
 
 
-def scene_of(pieces: list[Shapes], ground: Ground) -> LandScene:
-    """All pieces on the ground, as rays want them."""
-    numbers, kinds, parts, low, high = (np.concatenate(column) for column in zip(*pieces, strict=True))
-    return LandScene(numbers, kinds, parts, lay_grid(low, high), ground)
+def scene_of(pieces: list[Shapes], ground: Ground, tilt: float) -> LandScene:
+    """All pieces on the ground, as rays want them; `tilt` is how far, rad, a LiDAR may lean at most."""
+    low, high = (np.concatenate([getattr(piece, corner) for piece in pieces]) for corner in ("low", "high"))
+    # Neighbours on the land are neighbours in memory.
+    tile = np.floor((low + high)[:, :2] / (2.0 * _TILE_M))
+    order = np.lexsort((tile[:, 0], tile[:, 1]))
+    numbers, kinds, parts, low, high = (np.concatenate(column)[order] for column in zip(*pieces, strict=True))
+    middle = (low + high) / 2
+    boxes = np.column_stack((middle, high - middle)).astype(np.float32)
+    # A leaning fan meets what is above or below the LiDAR beside its trace on the ground.
+    soil = on_ground(ground, middle)
+    above = np.maximum(np.abs(high[:, 2] - soil - _LIDAR_HEIGHT_M), np.abs(low[:, 2] - soil - _LIDAR_HEIGHT_M))
+    return LandScene(numbers, kinds, parts, boxes, lay_plan_grid(low, high, tilt * above), ground)
 
 
 def _shapes(kinds: Ints, columns: Floats, part: Part, low: Floats, high: Floats) -> Shapes:

@@ -9,10 +9,9 @@ from numpy.typing import NDArray
 
 from navcore.maps.site_map import Point, SiteMap, ZoneKind
 from navcore.sim.orchard import Orchard
-from navcore.sim.rays.ground import Ground
+from navcore.sim.rays.ground import Ground, on_ground
 from navcore.sim.rays.land_scene import Part
 from navcore.sim.render.planting import shed_panels
-from navcore.sim.trellis.ground import on_ground
 from navcore.sim.trellis.growth import Growth
 from navcore.sim.trellis.shapes import Shapes, bunches, panels, rods
 
@@ -55,11 +54,15 @@ def _length(ring: tuple[Point, ...]) -> float:
 def _fence(ring: tuple[Point, ...], ground: Ground) -> list[Shapes]:
     """Posts every few metres and wires between them."""
     count = max(round(_length(ring) / _FENCE_POST_M), 3)
-    spots, _ = _along(ring, np.arange(count) * (_length(ring) / count))
+    spots, _ = _along(ring, np.linspace(0.0, _length(ring), count, endpoint=False))
     feet = np.column_stack((spots, on_ground(ground, spots)))
     radius = np.full(count, 0.04)
-    posts = rods(feet, feet + (0.0, 0.0, _FENCE_HEIGHT_M), radius, radius, Part.FENCE)
-    return [posts, *(_fence_wire(feet + (0.0, 0.0, height)) for height in _FENCE_WIRES_M)]
+    posts = rods(feet, _raised(feet, _FENCE_HEIGHT_M), radius, radius, Part.FENCE)
+    return [posts, *(_fence_wire(_raised(feet, height)) for height in _FENCE_WIRES_M)]
+
+
+def _raised(points: Floats, height: float) -> Floats:
+    return np.asarray(points + np.array((0.0, 0.0, height)))
 
 
 def _fence_wire(points: Floats) -> Shapes:

@@ -1,4 +1,4 @@
-"""The trees in a Y-trellis: trunk and limbs that stay, branches that pruning takes, shoots and leaves of the season."""
+"""The trees in a Y-trellis: trunk and limbs stay, pruning takes branches, the season brings shoots and leaves."""
 
 from __future__ import annotations
 
@@ -8,10 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from navcore.sim.orchard import Orchard, Season
-from navcore.sim.rays.ground import Ground
+from navcore.sim.rays.ground import Ground, on_ground
 from navcore.sim.rays.land_scene import Part
 from navcore.sim.trellis.frame import FrameParams
-from navcore.sim.trellis.ground import on_ground
 from navcore.sim.trellis.growth import Growth
 from navcore.sim.trellis.shapes import Shapes, bunches, rods
 
@@ -116,7 +115,7 @@ def _branches(
     n = len(limb)
     begin = limbs.at(limb, skeleton.uniform(0.1, 0.98, n))
     length = skeleton.uniform(0.35, 1.2, n) * skeleton.choice((-1.0, 1.0), n)
-    aside = skeleton.normal(0.0, 0.12, (n, 3)) + (0.0, 0.0, 0.06)
+    aside = skeleton.normal((0.0, 0.0, 0.06), 0.12, (n, 3))
     end = begin + length[:, None] * limbs.along[limb] + aside
     kept = season.random(n) < growth.branches
     radius = skeleton.uniform(0.006, 0.011, n)[kept]

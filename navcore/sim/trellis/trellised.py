@@ -24,6 +24,9 @@ from navcore.sim.trellis.trees import grown_trees
 
 Floats = NDArray[np.float64]
 
+# How far a robot and its knocked mount lean against the land at most, rad.
+_LEAN = 0.15
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TrellisParams:
@@ -78,7 +81,7 @@ def trellised(
         *surrounding_shapes(site, orchard, soil, growth, seed, season),
     ]
     ground = grown_ground(grid, orchard.plant_lines, growth, np.random.default_rng((seed, 61, season)))
-    return Trellised(scene=scene_of(pieces, ground), posts=posts)
+    return Trellised(scene=scene_of(pieces, ground, _LEAN + math.hypot(*terrain.slope)), posts=posts)
 
 
 def _lefts(orchard: Orchard) -> Floats:

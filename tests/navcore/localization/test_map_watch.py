@@ -79,7 +79,7 @@ def test_a_row_that_moves_sideways_against_the_map_is_noticed_though_it_is_drawn
     for _ in range(20):
         watch.add_row("a1 ahead", lateral_seen=0.45, lateral_by_map=0.05)
     assert watch.reason == ""
-    for _ in range(3):
+    for _ in range(6):
         watch.add_row("a1 ahead", lateral_seen=0.45, lateral_by_map=0.45)
     assert "beside itself" in watch.reason
 

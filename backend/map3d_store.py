@@ -1,0 +1,66 @@
+"""3D maps on disk: for each site a folder, in it one for each run that was mapped."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from datetime import UTC, datetime
+from pathlib import Path
+
+from backend.errors import NotFoundError
+from backend.schemas import Map3dDocument, Map3dFile
+
+NONE = "There is no such 3D map any more. Load the page again."
+REPORT = "report.json"  # written last, so a folder with it holds a whole map
+KEYFRAMES = "keyframes"
+FILES = ("map.ndt", "cloud.laz", "cloud.pcd", REPORT)
+
+
+class Map3dStore:
+    """Ids are checked by the routes; names of files are ours."""
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+
+    def folder(self, site_id: str, run_id: str) -> Path:
+        """Where a run's map is, or will be."""
+        return self._folder / site_id / run_id
+
+    def all(self, site_id: str) -> list[Map3dDocument]:
+        """Of a site, the newest first."""
+        made = [m for path in (self._folder / site_id).glob("*") if (m := self.get(site_id, path.name))]
+        return sorted(made, key=lambda m: m.made, reverse=True)
+
+    def get(self, site_id: str, run_id: str) -> Map3dDocument | None:
+        """None if it is not made yet."""
+        folder = self.folder(site_id, run_id)
+        try:
+            report = json.loads((folder / REPORT).read_bytes())
+            made = datetime.fromtimestamp((folder / REPORT).stat().st_mtime, UTC)
+        except (OSError, ValueError):
+            return None
+        files = [Map3dFile(name=n, size_bytes=(folder / n).stat().st_size) for n in FILES if (folder / n).is_file()]
+        return Map3dDocument.model_validate({**report, "run_id": run_id, "made": made, "files": files})
+
+    def begun(self, site_id: str, run_id: str) -> bool:
+        """Whether keyframes of an interrupted mapping are there."""
+        return (self.folder(site_id, run_id) / KEYFRAMES).is_dir()
+
+    def file(self, site_id: str, run_id: str, name: str) -> Path:
+        """One of its files. Raises NotFoundError."""
+        path = self.folder(site_id, run_id) / name
+        if name not in FILES or not path.is_file():
+            raise NotFoundError(NONE)
+        return path
+
+    def delete(self, site_id: str, run_id: str) -> None:
+        """Raises NotFoundError if there is nothing."""
+        folder = self.folder(site_id, run_id)
+        if not folder.is_dir():
+            raise NotFoundError(NONE)
+        (folder / REPORT).unlink(missing_ok=True)
+        shutil.rmtree(folder, ignore_errors=True)
+
+    def delete_site(self, site_id: str) -> None:
+        """All of a site that is deleted itself."""
+        shutil.rmtree(self._folder / site_id, ignore_errors=True)

@@ -1,0 +1,1 @@
+"""From a drive with a 3D LiDAR to one map of what stands there."""

@@ -1,0 +1,1 @@
+"""Poses of a drive held together by what was measured between them, and on the Earth."""

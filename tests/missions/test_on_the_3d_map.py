@@ -1,0 +1,154 @@
+"""Where neither GNSS nor a row tells the way, the robot drives on the 3D map, and nowhere else."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from navcore.drivers.lidar3d.lidar3d_params import paper_c_mount
+from navcore.geometry.se3 import SE3
+from navcore.localization.map_localizer import MapLocalizer
+from navcore.maps.mission import RowExit
+from navcore.maps.ndt.ndt_map import NdtMap
+from navcore.maps.site_map import SiteMap
+from navcore.messages import GhostSource, MatchState, NavMode, RunState, SimTruth
+from navcore.planning.mission_planner import mission_for_row
+from navcore.runtime.clouds import SimulatedHead, pose_of
+from navcore.runtime.lockstep import Lockstep, Tick
+from navcore.runtime.simulated_eye import ProjectedEye
+from navcore.runtime.simulated_map_eye import SimulatedMapEye
+from navcore.sim.map_error import NO_MAP_ERROR
+from navcore.sim.world import World, WorldParams
+from navcore.vehicle import PAPER_A
+from tests.missions.conftest import CONFIG, Drive, small_farm
+
+STEP_M = 2.0
+TURN_NS = 100_000_000
+AS_DRAWN = WorldParams(seed=4, map_error=NO_MAP_ERROR)
+
+
+def mapped(world: World) -> NdtMap:
+    """The farm's map, from clouds taken at known places along its roads and rows."""
+    ndt_map, head = (
+        NdtMap(datum=world.site.datum),
+        SimulatedHead(world.trellised(), world.terrain, paper_c_mount(), 9),
+    )
+    ways = [(row.start, row.end) for row in world.site.rows] + [
+        (lane.points[0], lane.points[-1]) for lane in world.site.lanes
+    ]
+    stamp_ns = 0
+    for (x0, y0), (x1, y1) in ways:
+        yaw, length = math.atan2(y1 - y0, x1 - x0), math.dist((x0, y0), (x1, y1))
+        for share in np.arange(0.0, 1.0, STEP_M / length):
+            for _ in range(2):
+                stamp_ns += TURN_NS
+                at = SimTruth(
+                    stamp_ns=stamp_ns, x=x0 + share * (x1 - x0), y=y0 + share * (y1 - y0), yaw=yaw, roll=0.0,
+                    pitch=0.0, v=0.0, omega=0.0,
+                )  # fmt: skip
+                head.follow(at)
+            turn = head.turn()
+            if turn is not None:
+                T_map_lidar: SE3 = pose_of(at, world.terrain) @ head.T_base_lidar
+                ndt_map.add(T_map_lidar.apply(turn.cloud.points))
+    return ndt_map
+
+
+@pytest.fixture(scope="module")
+def farm_map() -> NdtMap:
+    return mapped(World(small_farm(), PAPER_A, AS_DRAWN))
+
+
+@pytest.fixture
+def park_on_map(farm: SiteMap, farm_map: NdtMap) -> Callable[[], Drive]:
+    """A parked robot with a 3D LiDAR on its farm's map."""
+
+    def parked() -> Drive:
+        world = World(farm, PAPER_A, AS_DRAWN, start_ns=1_000_000_000)
+        head = SimulatedHead(world.trellised(), world.terrain, paper_c_mount(), 11)
+        lockstep = Lockstep(
+            world, CONFIG.new_navigator(farm.datum), ProjectedEye(world.orchard, AS_DRAWN.seed),
+            map_eye=SimulatedMapEye(head, MapLocalizer(farm_map)),
+        )  # fmt: skip
+        drive = Drive(lockstep)
+        lockstep.listeners.append(drive.ticks.append)
+        drive.start(farm, mission_for_row(farm, "r1", RowExit.REVERSE))
+        return drive
+
+    return parked
+
+
+def map_errors(ticks: list[Tick]) -> list[float]:
+    """Of all matches, m: places as told against the truth of that moment."""
+    truth = {tick.truth.stamp_ns: tick.truth for tick in ticks}
+    matches = [m for tick in ticks for m in tick.inputs.matches if m.state is MatchState.MATCHED]
+    return [math.dist((m.x, m.y), (truth[m.stamp_ns].x, truth[m.stamp_ns].y)) for m in matches if m.stamp_ns in truth]
+
+
+def test_the_map_drives_on_through_a_row_when_the_camera_goes_blind(park_on_map: Callable[[], Drive]) -> None:
+    drive = park_on_map()
+    drive.until_mode(NavMode.ROW)
+    drive.until(lambda _: False, seconds=5)
+    eye = drive.lockstep.eye
+    assert isinstance(eye, ProjectedEye)
+    eye.blind = True
+    drive.until_mode(NavMode.MAP, seconds=2)
+    on_map = len(drive.ticks)
+    last = drive.until_state(RunState.FINISHED, RunState.STOPPED, seconds=600)
+    assert last.decision.status.state is RunState.FINISHED, last.decision.status.events
+    assert drive.lockstep.world.touched == []
+    errors = map_errors(drive.ticks[on_map:])
+    assert len(errors) > 100
+    assert float(np.mean(errors)) < 0.04  # m
+
+
+def test_a_robot_without_a_map_waits_where_the_camera_goes_blind(park_on_map: Callable[[], Drive]) -> None:
+    drive = park_on_map()
+    drive.lockstep.map_eye = None
+    drive.until_mode(NavMode.ROW)
+    eye = drive.lockstep.eye
+    assert isinstance(eye, ProjectedEye)
+    eye.blind = True
+    last = drive.until_state(RunState.STOPPED, seconds=60)
+    assert "waited too long" in last.decision.status.stop_reason
+
+
+def test_the_map_takes_over_on_the_road_while_gnss_has_no_fix(park_on_map: Callable[[], Drive]) -> None:
+    drive = park_on_map()
+    drive.until(lambda _: False, seconds=3)
+    world = drive.lockstep.world
+    world.faults = replace(world.faults, corrections_lost=True)
+    drive.until_mode(NavMode.MAP, seconds=30)
+    drive.until_mode(NavMode.ROW_ENTRY, seconds=100)
+    assert [switch.after for switch in drive.switches] == [NavMode.MAP, NavMode.ROW_ENTRY]
+    off = [abs(tick.decision.status.lateral_error or 0.0) for tick in drive.ticks]
+    assert max(off) < 0.3  # m
+    assert float(np.mean(map_errors(drive.ticks))) < 0.05  # m
+
+
+def test_four_ghosts_say_how_far_they_are_from_the_driven_pose(park_on_map: Callable[[], Drive]) -> None:
+    drive = park_on_map()
+    last = drive.until_mode(NavMode.ROW)
+    ghosts = {ghost.source: ghost for ghost in last.decision.status.ghosts}
+    assert set(ghosts) == set(GhostSource)
+    assert ghosts[GhostSource.ROWS].apart < 0.05  # m
+    assert ghosts[GhostSource.MAP].apart < 0.3  # m
+
+
+def test_gnss_that_lies_by_two_metres_and_calls_itself_fixed_is_noticed_and_stops_the_robot(
+    park_on_map: Callable[[], Drive],
+) -> None:
+    drive = park_on_map()
+    drive.until(lambda _: False, seconds=5)
+    world = drive.lockstep.world
+    world.faults = replace(world.faults, gnss_off=(0.0, 2.0))
+    last = drive.until_state(RunState.STOPPED, seconds=3)
+    assert "position is in doubt" in last.decision.status.stop_reason
+    drive.until(lambda _: False, seconds=2)
+    pose, truth = drive.ticks[-1].decision.status.gnss_pose, drive.ticks[-1].truth
+    assert pose is not None
+    assert math.dist((pose.x, pose.y), (truth.x, truth.y)) < 0.1  # m: the lie does not move the pose
