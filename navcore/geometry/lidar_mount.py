@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from navcore.geometry.pinhole import rotation_from_rpy
+from navcore.geometry.se3 import SE3
 
 Floats = NDArray[np.float64]
 
@@ -31,6 +32,10 @@ class LidarMount:
     def R_base_lidar(self) -> Floats:
         """Rotation from the sensor's axes to `base_link`, shape (3, 3)."""
         return rotation_from_rpy(self.roll, self.pitch, self.yaw)
+
+    def T_base_lidar(self) -> SE3:
+        """From the sensor's axes and origin to `base_link`."""
+        return SE3(self.R_base_lidar(), np.array((self.x, self.y, self.z)))
 
     def ends(self, angles: Floats, distances: Floats) -> Floats:
         """Where rays in the sensor's plane end, (N, 3) in `base_link`, m."""

@@ -20,7 +20,7 @@ from navcore.messages.cloud import packed
 from navcore.promptness import be_prompt
 from navcore.runtime.clock import Every, Ticker
 from navcore.runtime.cloud_matcher import MOTIONS, CloudMatcher
-from navcore.runtime.clouds import Clouds, RealClouds, SimulatedClouds, SimulatedHead, StampedCloud
+from navcore.runtime.clouds import Clouds, RealClouds, SimulatedClouds, StampedCloud
 from navcore.runtime.map_file import MapFile, map_beside
 from navcore.runtime.simulation import SimulationParams
 from navcore.runtime.site_file import read_site
@@ -96,9 +96,7 @@ def main() -> None:
 def _clouds(endpoints: Endpoints, site: Path, params: SimulationParams | None, config: RobotConfig) -> Clouds:
     if params is None:
         return RealClouds(config.lidar3d)
-    world = params.world(read_site(site), config.vehicle_params(), 0)
-    head = SimulatedHead(world.trellised(), world.terrain, config.lidar3d.mount, params.world_seed)
-    return SimulatedClouds(endpoints, head)
+    return SimulatedClouds(endpoints, read_site(site), config.vehicle_params(), params)
 
 
 if __name__ == "__main__":

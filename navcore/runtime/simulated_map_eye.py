@@ -2,22 +2,26 @@
 
 from __future__ import annotations
 
+from navcore.geometry.lidar_mount import LidarMount
 from navcore.localization.map_localizer import MapLocalizer
 from navcore.messages import MapMatch, Odometry, SimTruth
 from navcore.runtime.cloud_matcher import CloudMatcher
-from navcore.runtime.clouds import SimulatedHead
+from navcore.runtime.clouds import StampedCloud
+from navcore.sim.lidar3d_feed import Lidar3dFeed
 
 
 class SimulatedMapEye:
     """Works as `ScanWorker` does, without its processes. `blind`: the LiDAR is covered."""
 
-    def __init__(self, head: SimulatedHead, localizer: MapLocalizer) -> None:
-        self._head, self._matcher, self.localizer = head, CloudMatcher(head.T_base_lidar), localizer
+    def __init__(self, feed: Lidar3dFeed, mount: LidarMount, localizer: MapLocalizer) -> None:
+        self._feed, self._matcher, self.localizer = feed, CloudMatcher(mount.T_base_lidar()), localizer
         self.blind = False
 
     def look(self, truth: SimTruth, motion: Odometry) -> MapMatch | None:
         """See `MapEye`."""
-        self._head.follow(truth)
+        self._feed.add(truth)
         self._matcher.hear(motion)
-        turn = self._head.turn()
-        return None if turn is None or self.blind else self._matcher.match(turn, self.localizer)
+        turn = self._feed.turn()
+        if turn is None or self.blind:
+            return None
+        return self._matcher.match(StampedCloud(turn.stamp_ns, turn.cloud), self.localizer)

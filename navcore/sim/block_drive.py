@@ -159,7 +159,7 @@ def serpentine(rows: tuple[Row, ...]) -> Polyline:
 def _half_circle(begin: Floats, ahead: Floats, across: Floats) -> list[Floats]:
     """Points between `begin`, driven `ahead`, and the same place in the row `across`."""
     across = across - (across @ ahead) * ahead
-    angles = np.linspace(0.0, math.pi, 40)[1:-1]
+    angles = np.linspace(0.0, math.pi, 400)[1:-1]
     radius = float(np.linalg.norm(across)) / 2.0
     middle = begin + across / 2.0
     return [middle - math.cos(a) * across / 2.0 + math.sin(a) * radius * ahead for a in angles]

@@ -21,7 +21,6 @@ from navcore.sim.map_error import MapErrorParams, perturb
 from navcore.sim.orchard import OrchardParams, build_orchard
 from navcore.sim.parking import parked
 from navcore.sim.terrain import SURFACE_TRAITS, Surface, Terrain, TerrainParams
-from navcore.sim.trellis.trellised import Trellised, trellised
 from navcore.sim.vehicle_dynamics import VehicleDynamics, VehicleDynamicsParams, WheelState
 from navcore.vehicle import VehicleParams
 
@@ -212,10 +211,6 @@ class World:
         drive, faults, ground = self._drive, self.faults, self.terrain.height(self._drive.x, self._drive.y)
         antenna = antenna_state(drive, self._imu.roll, self._imu.pitch, self._vehicle, ground, faults.gnss_off)
         self._gnss.epoch(self._now_ns, elapsed_s, antenna, frozen=faults.gnss_frozen, starved=faults.corrections_lost)
-
-    def trellised(self) -> Trellised:
-        """All that stands here as a 3D LiDAR sees it."""
-        return trellised(self.site, self.orchard, self.terrain)
 
     def _truth(self) -> SimTruth:
         d = self._drive

@@ -9,19 +9,21 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from navcore.drivers.lidar3d.lidar3d_params import paper_c_mount
-from navcore.geometry.se3 import SE3
+from navcore.geometry.lidar_mount import robot_lidar3d
 from navcore.localization.map_localizer import MapLocalizer
 from navcore.maps.mission import RowExit
 from navcore.maps.ndt.ndt_map import NdtMap
 from navcore.maps.site_map import SiteMap
 from navcore.messages import GhostSource, MatchState, NavMode, RunState, SimTruth
 from navcore.planning.mission_planner import mission_for_row
-from navcore.runtime.clouds import SimulatedHead, pose_of
 from navcore.runtime.lockstep import Lockstep, Tick
 from navcore.runtime.simulated_eye import ProjectedEye
 from navcore.runtime.simulated_map_eye import SimulatedMapEye
+from navcore.sim.body_pose import body_pose
+from navcore.sim.lidar3d import C16, Lidar3d
+from navcore.sim.lidar3d_feed import Lidar3dFeed
 from navcore.sim.map_error import NO_MAP_ERROR
+from navcore.sim.trellis.trellised import trellised
 from navcore.sim.world import World, WorldParams
 from navcore.vehicle import PAPER_A
 from tests.missions.conftest import CONFIG, Drive, small_farm
@@ -31,30 +33,30 @@ TURN_NS = 100_000_000
 AS_DRAWN = WorldParams(seed=4, map_error=NO_MAP_ERROR)
 
 
+MOUNT = robot_lidar3d()
+
+
+def lidar_of(world: World, seed: int) -> Lidar3dFeed:
+    """Turns of a 3D LiDAR in that world."""
+    scene = trellised(world.site, world.orchard, world.terrain).scene
+    return Lidar3dFeed(scene, world.terrain, PAPER_A, MOUNT, C16, seed)
+
+
 def mapped(world: World) -> NdtMap:
     """The farm's map, from clouds taken at known places along its roads and rows."""
-    ndt_map, head = (
-        NdtMap(datum=world.site.datum),
-        SimulatedHead(world.trellised(), world.terrain, paper_c_mount(), 9),
-    )
-    ways = [(row.start, row.end) for row in world.site.rows] + [
-        (lane.points[0], lane.points[-1]) for lane in world.site.lanes
-    ]
+    ndt_map, site = NdtMap(datum=world.site.datum), world.site
+    lidar = Lidar3d(trellised(site, world.orchard, world.terrain).scene, MOUNT, C16, 9)
+    ways = [(row.start, row.end) for row in site.rows] + [(lane.points[0], lane.points[-1]) for lane in site.lanes]
     stamp_ns = 0
     for (x0, y0), (x1, y1) in ways:
         yaw, length = math.atan2(y1 - y0, x1 - x0), math.dist((x0, y0), (x1, y1))
         for share in np.arange(0.0, 1.0, STEP_M / length):
-            for _ in range(2):
-                stamp_ns += TURN_NS
-                at = SimTruth(
-                    stamp_ns=stamp_ns, x=x0 + share * (x1 - x0), y=y0 + share * (y1 - y0), yaw=yaw, roll=0.0,
-                    pitch=0.0, v=0.0, omega=0.0,
-                )  # fmt: skip
-                head.follow(at)
-            turn = head.turn()
-            if turn is not None:
-                T_map_lidar: SE3 = pose_of(at, world.terrain) @ head.T_base_lidar
-                ndt_map.add(T_map_lidar.apply(turn.cloud.points))
+            stamp_ns += TURN_NS
+            x, y = x0 + share * (x1 - x0), y0 + share * (y1 - y0)
+            truth = SimTruth(stamp_ns=stamp_ns, x=x, y=y, yaw=yaw, roll=0.0, pitch=0.0, v=0.0, omega=0.0)
+            T_map_base = body_pose(truth, world.terrain, PAPER_A)
+            turn = lidar.turn(stamp_ns, (stamp_ns - TURN_NS, stamp_ns), (T_map_base, T_map_base))
+            ndt_map.add((T_map_base @ MOUNT.T_base_lidar()).apply(turn.cloud.points))
     return ndt_map
 
 
@@ -69,10 +71,9 @@ def park_on_map(farm: SiteMap, farm_map: NdtMap) -> Callable[[], Drive]:
 
     def parked() -> Drive:
         world = World(farm, PAPER_A, AS_DRAWN, start_ns=1_000_000_000)
-        head = SimulatedHead(world.trellised(), world.terrain, paper_c_mount(), 11)
         lockstep = Lockstep(
             world, CONFIG.new_navigator(farm.datum), ProjectedEye(world.orchard, AS_DRAWN.seed),
-            map_eye=SimulatedMapEye(head, MapLocalizer(farm_map)),
+            map_eye=SimulatedMapEye(lidar_of(world, 11), MOUNT, MapLocalizer(farm_map)),
         )  # fmt: skip
         drive = Drive(lockstep)
         lockstep.listeners.append(drive.ticks.append)
