@@ -11,12 +11,8 @@ from navcore.drivers.lidar3d.reader import Lidar3dReader
 from navcore.drivers.lidar3d.turns import Turn
 from navcore.geometry.point_cloud import PointCloud
 from navcore.geometry.se3 import SE3
-from navcore.maps.site_map import SiteMap
 from navcore.runtime.latest import Inbox
 from navcore.runtime.simulated_lidar3d import SimulatedLidar3d
-from navcore.runtime.simulation import SimulationParams
-from navcore.transport.endpoints import Endpoints
-from navcore.vehicle import VehicleParams
 
 # Of a worker that was busy only the newest clouds matter.
 MOST_CLOUDS = 2
@@ -68,9 +64,9 @@ class RealClouds:
 class SimulatedClouds:
     """Cast here, from the world's truth, so that no cloud crosses a process on its way to the map."""
 
-    def __init__(self, endpoints: Endpoints, site: SiteMap, vehicle: VehicleParams, params: SimulationParams) -> None:
-        self._lidar = SimulatedLidar3d(endpoints, site, vehicle, params)
-        self.T_base_lidar = self._lidar.mount.T_base_lidar()
+    def __init__(self, lidar: SimulatedLidar3d) -> None:
+        self._lidar = lidar
+        self.T_base_lidar = lidar.mount.T_base_lidar()
 
     def take(self) -> tuple[StampedCloud, ...]:
         """See `Clouds`."""

@@ -22,6 +22,7 @@ from navcore.runtime.clock import Every, Ticker
 from navcore.runtime.cloud_matcher import MOTIONS, CloudMatcher
 from navcore.runtime.clouds import Clouds, RealClouds, SimulatedClouds, StampedCloud
 from navcore.runtime.map_file import MapFile, map_beside
+from navcore.runtime.simulated_lidar3d import SimulatedLidar3d
 from navcore.runtime.simulation import SimulationParams
 from navcore.runtime.site_file import read_site
 from navcore.topics import LIDAR3D_CLOUD, MAP_MATCH, NAV_ODOMETRY
@@ -96,7 +97,8 @@ def main() -> None:
 def _clouds(endpoints: Endpoints, site: Path, params: SimulationParams | None, config: RobotConfig) -> Clouds:
     if params is None:
         return RealClouds(config.lidar3d)
-    return SimulatedClouds(endpoints, read_site(site), config.vehicle_params(), params)
+    vehicle, mount = config.vehicle_params(), config.lidar3d.mount
+    return SimulatedClouds(SimulatedLidar3d(endpoints, read_site(site), vehicle, params, mount))
 
 
 if __name__ == "__main__":

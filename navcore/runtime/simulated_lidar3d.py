@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from navcore.geometry.lidar_mount import LidarMount
 from navcore.maps.site_map import SiteMap
 from navcore.messages import SimTruth
 from navcore.runtime.simulation import SimulationParams
@@ -25,8 +26,10 @@ class SimulatedLidar3d:
         mount: where the LiDAR sits.
     """
 
-    def __init__(self, endpoints: Endpoints, site: SiteMap, vehicle: VehicleParams, params: SimulationParams) -> None:
-        world, self.mount = params.world(site, vehicle, 0), params.lidar3d_mount()
+    def __init__(
+        self, endpoints: Endpoints, site: SiteMap, vehicle: VehicleParams, params: SimulationParams, mount: LidarMount
+    ) -> None:
+        world, self.mount = params.world(site, vehicle, 0), mount
         scene = trellised(world.site, world.orchard, world.terrain).scene
         self._feed = Lidar3dFeed(scene, world.terrain, vehicle, self.mount, C16, params.world_seed)
         self._bus = Subscriber(endpoints, (SIM_TRUTH.name,), queue_length=_MOST_TRUTHS)

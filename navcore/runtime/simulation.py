@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import StrEnum
 
-from navcore.geometry.lidar_mount import LidarMount, robot_lidar, robot_lidar3d
+from navcore.geometry.lidar_mount import LidarMount, robot_lidar
 from navcore.geometry.pinhole import PinholeCamera
 from navcore.maps.site_map import SiteMap
 from navcore.messages import CameraName
@@ -35,7 +35,8 @@ class SimulationParams:
         picture_width_px, picture_height_px: of the drawn pictures; the published 1280 x 720 takes four times as long.
         detector: what finds trunks and posts.
         lidar2d: whether the robot carries a 2D LiDAR, mounted as paper B's.
-        lidar3d: whether it carries a 3D LiDAR, mounted as paper C's. Whoever uses its turns casts them himself.
+        lidar3d: whether it carries a 3D LiDAR, mounted as the robot's settings say. Whoever uses its
+            turns casts them himself.
     """
 
     world_seed: int = 1
@@ -57,10 +58,6 @@ class SimulationParams:
     def lidar_mount(self) -> LidarMount:
         """Of the 2D LiDAR."""
         return robot_lidar()
-
-    def lidar3d_mount(self) -> LidarMount:
-        """Of the 3D LiDAR."""
-        return robot_lidar3d()
 
     def mounts(self) -> dict[CameraName, PinholeCamera]:
         """Front and rear camera."""

@@ -9,7 +9,7 @@ from ipaddress import IPv4Address
 from navcore.drivers.lidar3d.models import MODELS, LidarModel, ModelName
 from navcore.drivers.lidar3d.turns import TurnsParams
 from navcore.errors import ConfigError
-from navcore.geometry.lidar_mount import LidarMount
+from navcore.geometry.lidar_mount import LidarMount, robot_lidar3d
 from navcore.geometry.se3 import SE3
 
 EVERY_CARD = "0.0.0.0"
@@ -19,11 +19,6 @@ _BOUNDS = (
     ("port", 1, 65_535, ""), ("device_port", 0, 65_535, ""), ("unit_mm", 0.5, 10.0, " mm"), ("lever", 0.0, 0.1, " m"),
     ("nearest", 0.0, 5.0, " m"), ("silent_s", 0.2, 60.0, " s"), ("reconnect_s", 0.01, 60.0, " s"),
 )  # fmt: skip
-
-
-def paper_c_mount() -> LidarMount:
-    """An assumption until it is measured: over the middle of the body, above what it carries."""
-    return LidarMount(x=0.0, y=0.0, z=1.2)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -37,7 +32,7 @@ class Lidar3dParams:
         port, device_port: of this computer, to which it sends data and what it tells of itself; 1 to 65535, the
             second 0 if it is not wanted.
         sender: the LiDAR's own address, by which another device's packets are passed over; empty for any.
-        mount: where it sits, within 5 m of `base_link`.
+        mount: where it sits, within 5 m of `base_link`; paper C's until it is measured.
         unit_mm: of a told distance, 0.5 to 10 mm; None for the model's own (VLP-16 2 mm, C16 2.5 mm).
         lever: how far from its axis rays leave the head, 0 to 0.1 m; None for the model's own (a C16's is told as
             0.043 to 0.046 m by version).
@@ -52,7 +47,7 @@ class Lidar3dParams:
     port: int = 2368
     device_port: int = 2369
     sender: str = ""
-    mount: LidarMount = field(default_factory=paper_c_mount)
+    mount: LidarMount = field(default_factory=robot_lidar3d)
     unit_mm: float | None = None
     lever: float | None = None
     nearest: float = 0.0

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from navcore.geometry.lidar_mount import robot_lidar3d
 from navcore.messages import SimTruth
 from navcore.runtime.simulated_lidar3d import SimulatedLidar3d
 from navcore.runtime.simulation import SimulationParams
@@ -42,7 +43,7 @@ def test_its_turns_meet_the_posts_of_the_same_world(tmp_path: Path) -> None:
     yaw = float(np.arctan2(row.end[1] - row.start[1], row.end[0] - row.start[0]))
     place = ((row.start[0] + row.end[0]) / 2, (row.start[1] + row.end[1]) / 2, yaw)
     publisher = Publisher(endpoints, "world")
-    lidar = SimulatedLidar3d(endpoints, demo_farm(), SCOUT_2, PARAMS)
+    lidar = SimulatedLidar3d(endpoints, demo_farm(), SCOUT_2, PARAMS, robot_lidar3d())
     turn = hear(publisher, lidar, place)
     lidar.close()
     publisher.close()
@@ -55,6 +56,6 @@ def test_its_turns_meet_the_posts_of_the_same_world(tmp_path: Path) -> None:
 
 
 def test_without_a_truth_there_is_no_turn(tmp_path: Path) -> None:
-    lidar = SimulatedLidar3d(Endpoints(tmp_path), demo_farm(), SCOUT_2, PARAMS)
+    lidar = SimulatedLidar3d(Endpoints(tmp_path), demo_farm(), SCOUT_2, PARAMS, robot_lidar3d())
     assert lidar.take() is None
     lidar.close()
