@@ -30,7 +30,9 @@ def register(app: typer.Typer) -> None:
 
 
 def odometry(
-    scans: Annotated[Path, typer.Argument(metavar="FOLDER|PCAP", help="Files of clouds in their order, or a capture.")],
+    scans: Annotated[
+        Path, typer.Argument(metavar="FOLDER|PCAP", help="Files of clouds in their order, or a capture.")
+    ],
     output: Annotated[Path | None, typer.Option(help="File for the trajectory; printed without.")] = None,
     period: Annotated[float, typer.Option(min=0.01, max=10.0, help="Between two files, s.")] = 0.1,
     model: Annotated[str, typer.Option(help="Of the LiDAR, if its packets do not tell: vlp16, c16, c16-fine.")] = "",
@@ -82,7 +84,8 @@ def _folder(folder: Path, period: float) -> Iterator[Scan]:
     if not folder.is_dir():
         raise CloudError(f"{folder} is no folder and no capture ({', '.join(_CAPTURES)}); give one of the two.")
     files = [file for file in folder.iterdir() if file.suffix.lower() in CLOUD_ENDINGS]
-    for k, file in enumerate(sorted(files, key=lambda file: [(len(w), w) for w in re.findall(r"\d+|\D+", file.name)])):
+    parts = {file: [(len(part), part) for part in re.findall(r"\d+|\D+", file.name)] for file in files}
+    for k, file in enumerate(sorted(files, key=parts.__getitem__)):
         yield Scan(k * period, read_cloud(file).cloud)
 
 
