@@ -87,7 +87,7 @@ class _Eye:
         self._lidar = Lidar3d(block.trellised(season).scene, MOUNT, C16, block.seed)
 
     def look(self, number: int, row: Row, along: float, lateral: float, yaw: float) -> PlacedScan:
-        """Turn `number`; `along` from the row's start and `lateral` to its left, m, `yaw` off its direction."""
+        """Turn `number`; `along` from the row's start, `lateral` to its left, m, `yaw` off its direction, rad."""
         way = math.atan2(row.end[1] - row.start[1], row.end[0] - row.start[0])
         x = row.start[0] + along * math.cos(way) - lateral * math.sin(way)
         y = row.start[1] + along * math.sin(way) + lateral * math.cos(way)

@@ -169,6 +169,20 @@ def bench_fusion(
     typer.echo(_report(figures, *made) if as_json else _lines(figures, *made))
 
 
+@bench_app.command("ndt")
+def bench_ndt(
+    quick: Annotated[bool, typer.Option("--quick", help="One small block, ten scans a season: 3 minutes.")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="A JSON list, one row a figure.")] = False,
+) -> None:
+    """A 3D LiDAR's scans laid onto a map of winter: ours, NDT as published and small_gicp, simulated pear blocks."""
+    from navcore.bench.ndt_bench import QUICK, NdtBenchParams, run_bench
+    from navcore.bench.provenance import commit, machine
+
+    figures = run_bench(QUICK if quick else NdtBenchParams(), lambda line: typer.echo(line, err=True))
+    made = (commit(), machine())
+    typer.echo(_report(figures, *made) if as_json else _lines(figures, *made))
+
+
 def _measure_loop(params: LoopParams, as_json: bool) -> None:
     import tempfile
     from contextlib import closing

@@ -84,9 +84,8 @@ def _folder(folder: Path, period: float) -> Iterator[Scan]:
     if not folder.is_dir():
         raise CloudError(f"{folder} is no folder and no capture ({', '.join(_CAPTURES)}); give one of the two.")
     files = [file for file in folder.iterdir() if file.suffix.lower() in CLOUD_ENDINGS]
-    for k, file in enumerate(
-        sorted(files, key=lambda file: [(len(w), w) for w in re.findall(r"\d+|\D+", file.name)])
-    ):
+    parts = {file: [(len(part), part) for part in re.findall(r"\d+|\D+", file.name)] for file in files}
+    for k, file in enumerate(sorted(files, key=parts.__getitem__)):
         yield Scan(k * period, read_cloud(file).cloud)
 
 

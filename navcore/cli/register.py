@@ -139,8 +139,7 @@ def _table(found: dict[str, Any]) -> list[str]:
         f"x {T[0, 3]:.3f}  y {T[1, 3]:.3f}  z {T[2, 3]:.3f} m, 1-sigma " + " ".join(f"{s:.3f}" for s in std[:3]),
         f"roll {angles[0]:.2f}  pitch {angles[1]:.2f}  yaw {angles[2]:.2f} deg, 1-sigma "
         + " ".join(f"{math.degrees(s):.2f}" for s in std[3:]),
-        f"score {found['score']:.3f}, {found['overlap']:.0%} of the source on the target, "
-        f"{found['iterations']} steps",
+        f"score {found['score']:.3f}, {found['overlap']:.0%} of SOURCE on TARGET, {found['iterations']} steps",
         f"{found['milliseconds']:.1f} ms, and {found['map_milliseconds']:.1f} ms for the target's cells",
     ]
     lines += [f"weak along {np.round(w['direction'], 2).tolist()}, 1-sigma {w['std']:.2f} m" for w in found["weak"]]

@@ -15,24 +15,23 @@ from navcore.maps.ndt.cell_grid import Cells
 def descend(
     points: Floats, stride: int, guess: Floats, pose: Floats, cells: Cells, steepness: float, most: int,
     enough: tuple[float, float], hold: Floats, H: Floats,
-) -> tuple[int, bool, float, int]:  # fmt: skip
+) -> tuple[int, float, float, int]:  # fmt: skip
     """Step until a step is shorter than `enough` (m, rad), `most` times at most.
 
     `guess` and `pose` are (3, 4), [R t]; `pose` is moved. `hold` (6,) is the information that binds it to the guess.
-    Returns how many steps, whether it came to rest, and the sum of weights and the points in cells before the last
-    step; `H` (6, 6) keeps that step's normal matrix, without `hold`.
+    Returns how many steps, how long the last one was over `enough`, and the sum of weights and the points in cells
+    before it; `H` (6, 6) keeps its normal matrix, without `hold`.
     """
     g = np.empty(6)
-    weights, met = 0.0, 0
+    weights, met, last, count = 0.0, 0, math.inf, 0
     R, t = np.ascontiguousarray(pose[:, :3]), pose[:, 3].copy()
-    for count in range(most):
+    while count < most and last >= 1.0:
         weights, met = normal_equations(points, stride, R, t, cells, steepness, H, g)
         step = np.asarray(-np.linalg.solve(H + np.diag(hold), g + hold * _off(guess, R, t)), dtype=np.float64)
         R, t = turned(R, step), t + step[:3]
         pose[:, :3], pose[:, 3] = R, t
-        if _length(step[:3]) < enough[0] and _length(step[3:]) < enough[1]:
-            return count + 1, True, weights, met
-    return most, False, weights, met
+        last, count = max(_length(step[:3]) / enough[0], _length(step[3:]) / enough[1]), count + 1
+    return count, last, weights, met
 
 
 @njit(cache=True, nogil=True)

@@ -16,8 +16,9 @@ import numpy as np
 from navcore.errors import NotFiniteError
 from navcore.geometry.se3 import SE3
 from navcore.localization.ndt.descent import descend
+from navcore.localization.ndt.match_kernels import weight_sum
 from navcore.localization.ndt.registration import Floats, Registration
-from navcore.localization.ndt.start_search import StartSearchParams, best_start
+from navcore.localization.ndt.start_search import StartSearchParams, best_starts
 from navcore.localization.ndt.uncertainty import UncertaintyParams, covariance_of, held, weak_directions
 from navcore.maps.ndt.ndt_map import NdtMap
 
@@ -47,6 +48,11 @@ _STAGES = (
     Stage(grid=1, stride=2, steepness=0.2, steps=8),
     Stage(grid=2, stride=1, steepness=0.6, steps=20, enough=0.001, enough_turn=0.001),
 )
+# It has come to rest if its last step is no longer than so many times what is enough: in another season's leaves it
+# trembles.
+_SETTLED = 10.0
+# Of the finest cells, when starts that were followed are compared.
+_JUDGED_STEEPNESS = 0.3
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -54,9 +60,9 @@ class NdtMatcherParams:
     """Parameters of `NdtMatcher`.
 
     Attributes:
-        search: about the guess, on the coarsest cells.
+        search: about the guess.
         stages: from coarse to fine (chosen on farms whose seeds no figure rests on).
-        guess_std, guess_turn_std: 1-sigma of the guess, m and rad: it stays along directions that the map does not tell.
+        guess_std, guess_turn_std: 1-sigma of the guess, m and rad: it stays where the map does not tell.
         least_points: a scan has, at least 6. least_overlap: share of them that must lie in cells, 0 to 1.
         uncertainty: of the result.
     """
@@ -72,14 +78,23 @@ class NdtMatcherParams:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class _Descent:
-    """What a stage came to; `grid` is the one it used."""
+    """What a stage came to; `grid` is the one it used, `moved` its last step over what is enough."""
 
     steps: int
-    rested: bool
+    moved: float
     score: float
     overlap: float
     grid: int
     H: Floats
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _Approach:
+    """A start that was followed as far as the last stage; `finest` is the finest grid that is not too thin."""
+
+    pose: Floats
+    finest: int
+    steps: int
 
 
 class NdtMatcher:
@@ -103,37 +118,49 @@ class NdtMatcher:
         return self._matched(points, guess, start)
 
     def _matched(self, points: Floats, guess: SE3, start: Floats) -> Registration:
-        p = self._params
-        pose = best_start(points, start, self._map.grids[0].cells(), p.search)
-        steps, finest, last = 0, len(self._map.grids) - 1, None
-        for stage in p.stages:
-            last = self._descend(points, stage, start, pose, finest)
-            steps = steps + last.steps
-            finest = last.grid if last.grid < stage.grid else finest
-        if last is None or last.overlap < p.least_overlap:
-            overlap = 0.0 if last is None else last.overlap
-            return self._unknown(guess, f"Only {overlap:.0%} of the scan's points lie where the map has any.", steps)
+        p, grids = self._params, self._map.grids
+        cells = grids[min(p.search.grid, len(grids) - 1)].cells()
+        tried = [self._approach(points, start, pose) for pose in best_starts(points, start, cells, p.search)]
+        best = max(tried, key=lambda way: self._score(points, way)) if len(tried) > 1 else tried[0]
+        last = self._descend(points, p.stages[-1], start, best.pose, best.finest)
+        steps = sum(way.steps for way in tried) + last.steps
+        if last.overlap < p.least_overlap:
+            why = f"Only {last.overlap:.0%} of the scan's points lie where the map has any."
+            return self._unknown(guess, why, steps)
         covariance = covariance_of(last.H, self._hold, p.uncertainty)
         weak = weak_directions(covariance, p.uncertainty)
-        t = pose[:, 3] + sum(w.direction * (w.direction @ (guess.t - pose[:, 3])) for w in weak)
+        t = best.pose[:, 3] + sum(w.direction * (w.direction @ (guess.t - best.pose[:, 3])) for w in weak)
         return Registration(
-            T_target_source=SE3(pose[:, :3].copy(), np.asarray(t)), covariance=held(covariance, weak, p.guess_std),
-            score=last.score, overlap=last.overlap, iterations=steps, weak=weak,
-            reason=None if last.rested else f"The match did not come to rest within {p.stages[-1].steps} steps.",
+            T_target_source=SE3(best.pose[:, :3].copy(), np.asarray(t)), score=last.score, overlap=last.overlap,
+            covariance=held(covariance, weak, p.guess_std), iterations=steps, weak=weak,
+            reason=None if last.moved < _SETTLED else f"The match did not come to rest within {last.steps} steps.",
         )  # fmt: skip
+
+    def _approach(self, points: Floats, start: Floats, pose: Floats) -> _Approach:
+        """All stages but the last."""
+        steps, finest = 0, len(self._map.grids) - 1
+        for stage in self._params.stages[:-1]:
+            done = self._descend(points, stage, start, pose, finest)
+            steps = steps + done.steps
+            finest = done.grid if done.grid < stage.grid else finest
+        return _Approach(pose=pose, finest=finest, steps=steps)
+
+    def _score(self, points: Floats, way: _Approach) -> float:
+        R, t = np.ascontiguousarray(way.pose[:, :3]), way.pose[:, 3]
+        return float(weight_sum(points, 1, R, t, self._map.grids[-1].cells(), _JUDGED_STEEPNESS))
 
     def _descend(self, points: Floats, stage: Stage, start: Floats, pose: Floats, finest: int) -> _Descent:
         """Moves `pose`. Where a map is too thin for small cells, as one scan is, larger ones must do."""
         grid, before, H = min(stage.grid, finest), pose.copy(), np.zeros((6, 6))
         used = math.ceil(len(points) / stage.stride)
-        steps, rested, weights, met = descend(
+        steps, moved, weights, met = descend(
             points, stage.stride, start, pose, self._map.grids[grid].cells(), stage.steepness, stage.steps,
             (stage.enough, stage.enough_turn), self._hold, H,
         )  # fmt: skip
         if met < self._params.least_overlap * used and grid > 0:
             pose[:] = before
             return self._descend(points, stage, start, pose, grid - 1)
-        return _Descent(steps=steps, rested=rested, score=weights / used, overlap=met / used, grid=grid, H=H)
+        return _Descent(steps=steps, moved=moved, score=weights / used, overlap=met / used, grid=grid, H=H)
 
     def _unknown(self, guess: SE3, reason: str, steps: int = 0) -> Registration:
         covariance = covariance_of(np.zeros((6, 6)), self._hold, self._params.uncertainty)

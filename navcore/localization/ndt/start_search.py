@@ -20,29 +20,52 @@ class StartSearchParams:
     Attributes:
         reach: furthest place, m, at least 0. turn: furthest heading, rad, at least 0.
         step: between two places, m, above 0. turn_step: between two headings, rad, above 0.
-        points: of the scan that are looked at, about, at least 1.
+        grid: of the map that is looked at, 0 the coarsest. points: of the scan, about, at least 1.
         steepness: of the score, see `normal_equations`.
         doubt: share of its score that the furthest place loses, and the furthest heading, 0 to 1: where all places
             look alike, as along a smooth corridor, the guess stays.
+        candidates: so many starts are followed at most, at least 1; those that score `close` times the best, 0 to 1.
+            Only the finest cells tell them apart where leaves hide what the map knows.
     """
 
     reach: float = 0.8
     turn: float = math.radians(12.0)
     step: float = 0.4
     turn_step: float = math.radians(4.0)
+    grid: int = 0
     points: int = 250
     steepness: float = 0.3
     doubt: float = 0.05
+    candidates: int = 1
+    close: float = 0.9
 
 
-def best_start(points: Floats, guess: Floats, cells: Cells, params: StartSearchParams) -> Floats:
-    """The pose (3, 4) of the best score."""
-    shifts, turns = _shifts(params.reach, params.step), _turns(params.turn, params.turn_step)
+# For a start or a restart: slower, and right in full leaf more often than the default.
+WIDE_SEARCH = StartSearchParams(grid=1, points=500, steepness=0.1, candidates=4)
+
+
+def best_starts(points: Floats, guess: Floats, cells: Cells, params: StartSearchParams) -> list[Floats]:
+    """Poses (3, 4), the best first, no two of them neighbours."""
+    p = params
+    shifts, turns = _shifts(p.reach, p.step), _turns(p.turn, p.turn_step)
     if len(shifts) * len(turns) == 1:
-        return guess.copy()
-    stride = max(1, len(points) // params.points)
-    kept = _kept(shifts, turns, params.doubt)
-    return np.asarray(_best(points, stride, guess, cells, params.steepness, shifts, turns, kept))
+        return [guess.copy()]
+    stride = max(1, len(points) // p.points)
+    scores = _scores(points, stride, guess, cells, p.steepness, shifts, turns) * _kept(shifts, turns, p.doubt)
+    least, found = p.close * scores.max(), list[Floats]()
+    while len(found) < p.candidates and (not found or scores.max() > max(least, 0.0)):
+        m, n = divmod(int(scores.argmax()), len(shifts))
+        found.append(_moved(guess, shifts[n], float(turns[m])))
+        beside = np.hypot(*(shifts - shifts[n]).T) < 1.1 * p.step
+        scores[np.ix_(np.abs(turns - turns[m]) < 1.1 * p.turn_step, beside)] = -1.0
+    return found
+
+
+def _moved(guess: Floats, shift: Floats, turn: float) -> Floats:
+    c, s = math.cos(turn), math.sin(turn)
+    pose = np.array(((c, -s, 0.0), (s, c, 0.0), (0.0, 0.0, 1.0))) @ guess
+    pose[:, 3] = guess[:, 3] + (shift[0], shift[1], 0.0)
+    return np.asarray(pose)
 
 
 @lru_cache(maxsize=16)
@@ -69,18 +92,16 @@ def _kept(shifts: Floats, turns: Floats, doubt: float) -> Floats:
 
 
 @njit(cache=True, nogil=True)
-def _best(
-    points: Floats, stride: int, guess: Floats, cells: Cells, steepness: float, shifts: Floats, turns: Floats,
-    kept: Floats,
-) -> Floats:  # fmt: skip
-    best, top = guess.copy(), -1.0
-    R0, t = np.ascontiguousarray(guess[:, :3]), np.empty(3)
+def _scores(
+    points: Floats, stride: int, guess: Floats, cells: Cells, steepness: float, shifts: Floats, turns: Floats
+) -> Floats:
+    """(turns, shifts)."""
+    scores, t = np.empty((len(turns), len(shifts))), np.empty(3)
+    R0 = np.ascontiguousarray(guess[:, :3])
     for m in range(len(turns)):
         c, s = math.cos(turns[m]), math.sin(turns[m])
         R = np.array(((c, -s, 0.0), (s, c, 0.0), (0.0, 0.0, 1.0))) @ R0
         for n in range(len(shifts)):
             t[0], t[1], t[2] = guess[0, 3] + shifts[n, 0], guess[1, 3] + shifts[n, 1], guess[2, 3]
-            score = weight_sum(points, stride, R, t, cells, steepness) * kept[m, n]
-            if score > top:
-                best[:, :3], best[:, 3], top = R, t, score
-    return best
+            scores[m, n] = weight_sum(points, stride, R, t, cells, steepness)
+    return scores

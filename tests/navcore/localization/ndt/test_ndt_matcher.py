@@ -71,7 +71,8 @@ def corridor(seed: int, n: int = 30_000) -> Floats:
     rng = np.random.default_rng(seed)
     xz = np.column_stack((rng.uniform(-25.0, 25.0, n), np.zeros(n), rng.uniform(0.0, 3.0, n)))
     flat = ground(rng, n) * (1.0, 0.1, 0.0)
-    points = np.vstack((xz + (0.0, 2.3, 0.0), xz - (0.0, 2.3, 0.0), flat))
+    wall = np.array((0.0, 2.3, 0.0))
+    points = np.vstack((xz + wall, xz - wall, flat))
     return np.asarray(points + rng.normal(0.0, 0.01, points.shape))
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import struct
 import tracemalloc
 from collections.abc import Callable
@@ -42,12 +43,7 @@ def test_changed_bytes_give_points_or_a_sentence(name: str, data: st.DataObject)
         at = data.draw(st.integers(0, min(len(good), 700) - 1) | st.integers(0, len(good) - 1))
         new = data.draw(st.binary(min_size=1, max_size=8) | st.sampled_from((b"\xff" * 4, bytes(4))))
         broken[at : at + len(new)] = new
-    try:
-        found = reader(bytes(broken), name)
-    except CloudError as error:
-        assert name in str(error)
-    else:
-        assert np.isfinite(found.cloud.points).all()
+    assert told_or_finite(reader, bytes(broken), name)
 
 
 @pytest.mark.parametrize("name", list(GOOD))
@@ -56,12 +52,12 @@ def test_a_file_that_was_cut_off_is_refused(name: str, share: float) -> None:
     reader, good = GOOD[name]
     size = int(share * (len(good) - 20))  # a PLY's last bytes are a face, which nobody reads
     cut = good[: size // 16 * 16 + 5]  # KITTI's whole points are a shorter scan
-    with pytest.raises(CloudError, match=name):
+    with pytest.raises(CloudError, match=re.escape(name)):
         reader(cut, name)
 
 
 def test_the_place_where_a_file_ends_is_told() -> None:
-    with pytest.raises(CloudError, match=r"ends after point 11 of 40"):
+    with pytest.raises(CloudError, match="ends after point 11 of 40"):
         read_pcd(pcd(POINTS, body=pcd(POINTS[:11]).split(b"DATA binary\n")[1], width=40), "a.pcd")
 
 
@@ -78,6 +74,13 @@ def test_the_line_that_is_no_point_is_told() -> None:
 def laz_with(at: int, new: bytes) -> bytes:
     good = GOOD["farm.laz"][1]
     return good[:at] + new + good[at + len(new) :]
+
+
+def told_or_finite(reader: Reader, data: bytes, name: str) -> bool:
+    try:
+        return bool(np.isfinite(reader(data, name).cloud.points).all())
+    except CloudError as error:
+        return name in str(error)
 
 
 def lying() -> list[tuple[Reader, bytes]]:

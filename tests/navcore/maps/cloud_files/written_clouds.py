@@ -38,7 +38,9 @@ def pcd_body(points: Floats, form: str) -> bytes:
         return "".join(f"{x:.9g} {y:.9g} 0 0 0 {z:.9g}\n" for x, y, z in points).encode()
     singles = points.astype("<f4")
     if form == "binary":
-        return b"".join(xy.tobytes() + bytes(3) + z.tobytes() for xy, z in zip(singles[:, :2], singles[:, 2:]))
+        return b"".join(
+            xy.tobytes() + bytes(3) + z.tobytes() for xy, z in zip(singles[:, :2], singles[:, 2:], strict=True)
+        )
     raw = singles[:, 0].tobytes() + singles[:, 1].tobytes() + bytes(3 * len(points)) + singles[:, 2].tobytes()
     packed = lzf(raw)
     return struct.pack("<II", len(packed), len(raw)) + packed

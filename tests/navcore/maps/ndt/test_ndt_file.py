@@ -87,7 +87,8 @@ def parts() -> tuple[bytes, bytes]:
     ("old", "new"),
     [
         (b'"size":2.0', b'"size":0.1'), (b'"size":0.5', b'"size":-0.5'), (b'"cells":', b'"cells":9'),
-        (b'"floor":0.0001', b'"floor":0.0'), (b'"grids":[', b'"grids":[[],'), (b"{", b"}"), (b'"least":6', b'"least":0'),
+        (b'"floor":0.0001', b'"floor":0.0'), (b'"grids":[', b'"grids":[[],'), (b"{", b"}"),
+        (b'"least":6', b'"least":0'),
     ],
 )  # fmt: skip
 def test_a_header_that_lies_is_refused(old: bytes, new: bytes) -> None:

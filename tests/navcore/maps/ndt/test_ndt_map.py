@@ -82,7 +82,7 @@ def test_far_from_the_origin_cells_keep_their_digits() -> None:
     points = np.random.default_rng(0).normal(0.5, 0.05, (500, 3))
     near, far = CellGrid(1.0), CellGrid(1.0)
     near.add(points)
-    far.add(points + (400_000.0, -300_000.0, 500.0))
+    far.add(points + np.array((400_000.0, -300_000.0, 500.0)))
     a, b = gaussian_at(near, (0.5, 0.5, 0.5)), gaussian_at(far, (400_000.5, -299_999.5, 500.5))
     np.testing.assert_allclose(a, b, rtol=1e-4, atol=1e-5)
 
@@ -107,5 +107,5 @@ def test_points_that_are_nowhere_are_refused(bad: float) -> None:
 
 
 def test_a_size_that_the_map_does_not_have_is_told() -> None:
-    with pytest.raises(NdtMapError, match="no cells of 3 m, but of 2, 1, 0.5 m"):
+    with pytest.raises(NdtMapError, match=r"no cells of 3 m, but of 2, 1, 0\.5 m"):
         NdtMap().grid(3.0)
