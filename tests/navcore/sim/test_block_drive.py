@@ -66,6 +66,14 @@ def test_every_tenth_of_a_second_brings_a_turn_with_all_that_came_since(turns: l
     assert all(f.stamp_ns < t.stamp_ns for t in turns for f in t.fixes), "fixes come late"
 
 
+def test_under_full_leaf_the_fix_is_lost_in_the_rows() -> None:
+    block = tuning_block(0, BlockSize(alleys=2, length=40.0))
+    coarsest = replace(COARSE, turns_per_s=5.0, elevations_deg=(-15.0, -5.0, 5.0, 15.0))
+    drive = BlockDrive(block, BlockDriveParams(season=Season.MATURING, lidar=coarsest))
+    fixes = [f for t in drive for f in t.fixes]
+    assert sum(f.quality is not FixQuality.RTK_FIXED for f in fixes) > 0.4 * len(fixes)
+
+
 def test_the_body_leans_with_the_ground_it_stands_on(drive: BlockDrive, turns: list[DriveTurn]) -> None:
     lean_deg = np.degrees([t.T_map_base.rpy()[:2] for t in turns])
     assert (lean_deg.std(axis=0) > 0.2).all()

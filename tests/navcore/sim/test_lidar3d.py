@@ -235,7 +235,8 @@ def test_the_faults_are_an_empty_scan_rain_and_a_knocked_mount() -> None:
     assert drops.mean() > 0.15
     knocked = turn(what, faults=Lidar3dFaults(turned=(0.0, math.radians(5.0), 0.0)))
     ahead = np.abs(knocked.cloud.points[:, 1]) < 0.5
-    slope = np.polyfit(*knocked.cloud.points[ahead & seen(knocked, Part.WALL)][:, [2, 0]].T, 1)[0]
+    met = knocked.cloud.points[ahead & seen(knocked, Part.WALL)]
+    slope = float(np.polyfit(met[:, 2], met[:, 0], 1)[0])
     assert math.degrees(math.atan(slope)) == pytest.approx(-5.0, abs=0.1)
 
 
