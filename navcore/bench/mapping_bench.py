@@ -127,11 +127,19 @@ def mapping_figures(mapped: Sequence[MappedBlock]) -> tuple[Figure, ...]:
             figure="mapping, scans a second of processor time, one core", value=turns, unit="1/s", n=len(mapped),
             seed=seed, target=TURNS_A_SECOND, ok=turns >= TURNS_A_SECOND,
         ),
-        _plain("area seen by one map", float(np.mean([m.made.report.hectares for m in mapped])), "ha", len(mapped), seed),
-        _plain("loops believed, a map", float(np.mean([m.made.report.loops_taken for m in mapped])), "count",
-               len(mapped), seed),
+        *_means(mapped, seed),
         *_memory(mapped, seed),
     )  # fmt: skip
+
+
+def _means(mapped: Sequence[MappedBlock], seed: int) -> list[Figure]:
+    """Of a map."""
+    reports = [m.made.report for m in mapped]
+    seen, loops = ([getattr(r, name) for r in reports] for name in ("hectares", "loops_taken"))
+    return [
+        _plain("area seen by one map", float(np.mean(seen)), "ha", len(mapped), seed),
+        _plain("loops believed in one map", float(np.mean(loops)), "count", len(mapped), seed),
+    ]
 
 
 def _distances(words: str, ours: Distances, baseline: Distances, seed: int, judged: bool = True) -> list[Figure]:
