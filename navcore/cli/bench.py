@@ -183,6 +183,20 @@ def bench_ndt(
     typer.echo(_report(figures, *made) if as_json else _lines(figures, *made))
 
 
+@bench_app.command("mapping")
+def bench_mapping(
+    quick: Annotated[bool, typer.Option("--quick", help="One small block: a few minutes.")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="A JSON list, one row a figure.")] = False,
+) -> None:
+    """Maps of simulated pear blocks: distances between surveyed posts, scans a second, memory by area."""
+    from navcore.bench.mapping_bench import QUICK, MappingBenchParams, mapping_figures, run_bench
+    from navcore.bench.provenance import commit, machine
+
+    mapped = run_bench(QUICK if quick else MappingBenchParams(), lambda line: typer.echo(line, err=True))
+    figures, made = mapping_figures(mapped), (commit(), machine())
+    typer.echo(_report(figures, *made) if as_json else _lines(figures, *made))
+
+
 def _measure_loop(params: LoopParams, as_json: bool) -> None:
     import tempfile
     from contextlib import closing
