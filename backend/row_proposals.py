@@ -68,7 +68,8 @@ def rows_in_a_map(name: str, datum: Datum) -> ImportKind:
     def command(source: Path, _: Path, settings: Settings) -> list[str]:
         return [
             sys.executable, "-m", "backend.row_import", f"--lat-deg={datum.lat_deg!r}",
-            f"--lon-deg={datum.lon_deg!r}", f"--height-m={datum.height_m!r}", f"--memory-bytes={settings.map_memory_bytes}",
+            f"--lon-deg={datum.lon_deg!r}", f"--height-m={datum.height_m!r}",
+            f"--memory-bytes={settings.map_memory_bytes}",
             f"--cpu-s={settings.import_cpu_s}", "--", str(source), name,
         ]  # fmt: skip
 

@@ -197,6 +197,20 @@ def bench_mapping(
     typer.echo(_report(figures, *made) if as_json else _lines(figures, *made))
 
 
+@bench_app.command("trellis")
+def bench_trellis(
+    quick: Annotated[bool, typer.Option("--quick", help="A small block, winter and full leaf: two minutes.")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="A JSON list, one row a figure.")] = False,
+) -> None:
+    """Posts, wires and rows found by a 3D LiDAR, season by season, beside the published filters."""
+    from navcore.bench.provenance import commit, machine
+    from navcore.bench.trellis_bench import QUICK, TrellisBenchParams, trellis_figures
+
+    found = trellis_figures(QUICK if quick else TrellisBenchParams(), lambda line: typer.echo(line, err=True))
+    figures, made = tuple(found), (commit(), machine())
+    typer.echo(_report(figures, *made) if as_json else _lines(figures, *made))
+
+
 def _measure_loop(params: LoopParams, as_json: bool) -> None:
     import tempfile
     from contextlib import closing

@@ -52,7 +52,7 @@ class StandingBlock:
         return np.array([(x, k * self.width) for k in range(self.lines) for x in along])
 
     def seen(self, *, missing: tuple[int, ...] = (), seed: int = 0, rays: bool = True, leaves: int = 0) -> SeenCloud:
-        """One run down each alley. `missing` are numbers of posts that are gone; `leaves` points hang about a line."""
+        """One run down each alley. `missing` posts are gone; so many `leaves` hang about the lines."""
         rng = np.random.default_rng(seed)
         posts = [p for k, p in enumerate(self.post_places()) if k not in missing]
         pieces = [self._ground(rng)]
@@ -74,7 +74,7 @@ class StandingBlock:
         count = int(np.prod(high - low) * 40)
         xy = self.turned(rng.uniform(low, high, (count, 2)))
         points = np.column_stack((xy, self._floor(xy) + rng.normal(0.0, 0.01, count)))
-        return points, points + (0.0, 0.0, SENSOR_HEIGHT)
+        return points, points + np.array((0.0, 0.0, SENSOR_HEIGHT))
 
     def _shaft(self, place: Floats, radius: float, height: float, rng: np.random.Generator) -> tuple[Floats, Floats]:
         """Rays from both sides that end on a cylinder; above it they go on."""
@@ -87,8 +87,8 @@ class StandingBlock:
         xy = place + radius * (u * across + np.sqrt(1.0 - u * u) * away)
         z = self._floor(place[None])[0] + rng.uniform(0.0, 2.4, count)
         over = z - self._floor(place[None])[0] > height
-        xy[over] = place - 4.0 * away[over]
         points = np.column_stack((xy + rng.normal(0.0, 0.01, (count, 2)), z))
+        points[over] = origins[over] + 2.2 * (points[over] - origins[over])
         return points, origins
 
     def _through(self, place: Floats, rng: np.random.Generator) -> tuple[Floats, Floats]:
