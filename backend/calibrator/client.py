@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from datetime import UTC, datetime
 from threading import Lock
 
@@ -49,11 +50,13 @@ class Calibrator:
             rehearsal=start.rehearsal, camera_version=self._lens(start),
         )  # fmt: skip
         with self._one_change:
+            if self._folder.setup() is None:
+                self._keeper.end()  # one that was asked for again while its calibration ended
             try:
                 self._folder.begin(setup)
             except CalibrationError as error:
                 raise ConflictError(str(error)) from error
-        self._keeper.want(rehearsal=start.rehearsal)
+        self._keeper.want()
         return CalibrationDocument(setup=setup, state=None, message=STARTING)
 
     def document(self) -> CalibrationDocument:
@@ -113,9 +116,12 @@ class Calibrator:
         return setup, reply
 
     def _ask(self, setup: SessionSetup, request: CalibratorRequest, timeout_ms: int) -> CalibratorReply:
-        self._keeper.want(rehearsal=setup.rehearsal)
+        self._keeper.want()
         with self._one_question:
-            return self._requester.ask(request, CalibratorReply, timeout_ms)
+            reply = self._requester.ask(replace(request, session=setup.id), CalibratorReply, timeout_ms)
+        if reply.state.setup.id != setup.id:
+            raise TransportError(STARTING)
+        return reply
 
     def _lens(self, start: CalibrationStart) -> CalibrationVersion | None:
         """What a LiDAR's calibration goes by."""

@@ -26,17 +26,16 @@ class CalibratorKeeper(Worker):
         super().__init__("calibrator")
         self._settings = settings
         self._one = Lock()
-        self._rehearsal = False
         self._wanted_s = float("-inf")
         self._child: subprocess.Popen[bytes] | None = None
         self._started_s = self._not_before_s = 0.0
         self._pause_s = PAUSE_S
         self.deaths = 0
 
-    def want(self, *, rehearsal: bool) -> None:
+    def want(self) -> None:
         """Somebody asks for it now."""
         with self._one:
-            self._rehearsal, self._wanted_s = rehearsal, time.monotonic()
+            self._wanted_s = time.monotonic()
 
     def end(self) -> None:
         """The calibration is over: no process of it runs when this returns."""
@@ -61,9 +60,7 @@ class CalibratorKeeper(Worker):
             self._not_before_s = now_s + self._pause_s
         wanted = now_s - self._wanted_s <= IDLE_S
         if wanted and self._child is None and now_s >= self._not_before_s:
-            self._child = subprocess.Popen(
-                command(self._settings, rehearsal=self._rehearsal), stdin=subprocess.DEVNULL
-            )  # fmt: skip
+            self._child = subprocess.Popen(command(self._settings), stdin=subprocess.DEVNULL)
             self._started_s = now_s
         elif not wanted:
             self._end_child()
@@ -80,7 +77,7 @@ class CalibratorKeeper(Worker):
         self._child = None
 
 
-def command(settings: Settings, *, rehearsal: bool) -> list[str]:
+def command(settings: Settings) -> list[str]:
     """Of the calibrating process."""
     return [
         sys.executable,
@@ -89,5 +86,6 @@ def command(settings: Settings, *, rehearsal: bool) -> list[str]:
         "backend.calibrator.process",
         f"--bus={settings.bus_dir}",
         f"--session={settings.calibration_session_dir}",
-        f"--versions={settings.rehearsal_dir if rehearsal else settings.calibration_dir}",
+        f"--versions={settings.calibration_dir}",
+        f"--rehearsals={settings.rehearsal_dir}",
     ]

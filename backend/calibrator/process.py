@@ -38,6 +38,7 @@ def main() -> None:
     parser.add_argument("--bus", type=Path, required=True, help="directory of the station's sockets")
     parser.add_argument("--session", type=Path, required=True, help="folder of the calibration under way")
     parser.add_argument("--versions", type=Path, required=True, help="folder of the versions that are kept")
+    parser.add_argument("--rehearsals", type=Path, required=True, help="folder of those found in rehearsals")
     given = parser.parse_args()
     ended: list[int] = []
     signal.signal(signal.SIGTERM, lambda number, _: ended.append(number))
@@ -50,7 +51,8 @@ def main() -> None:
         return
     board = rehearse(given.bus, setup) if setup.rehearsal else None
     try:
-        work(CalibratorWork(setup, folder, VersionFolder(given.versions, setup.robot)), endpoints, ended)
+        versions = VersionFolder(kept_in(setup, given.versions, given.rehearsals), setup.robot)
+        work(CalibratorWork(setup, folder, versions), endpoints, ended)
     finally:
         if board is not None:
             board.terminate()
@@ -66,9 +68,17 @@ def work(calibrator: CalibratorWork, endpoints: Endpoints, ended: list[int]) -> 
     ):
         while not ended:
             if (question := replier.receive(0)) is not None:
-                replier.reply(calibrator.answer(decode(CalibratorRequest, question)))
+                request = decode(CalibratorRequest, question)
+                replier.reply(calibrator.answer(request))
+                if not calibrator.is_asked(request):
+                    break
             calibrator.look(subscriber, publisher, WAIT_MS)
     calibrator.close()
+
+
+def kept_in(setup: SessionSetup, versions: Path, rehearsals: Path) -> Path:
+    """Nothing that was found in a rehearsal comes where the robot looks."""
+    return rehearsals if setup.rehearsal else versions
 
 
 def rehearse(bus: Path, setup: SessionSetup) -> subprocess.Popen[bytes]:

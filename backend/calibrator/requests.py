@@ -23,11 +23,13 @@ class CalibratorRequest:
     """One request.
 
     Attributes:
+        session: id of the calibration that is meant; one who works on another one ends.
         name, kept: of KEEP: which pose, and whether it counts.
         by, camera: of ACCEPT: who accepts it, and the camera's name or serial number.
     """
 
     kind: CalibratorRequestKind
+    session: str = ""
     name: str = ""
     kept: bool = True
     by: str = ""

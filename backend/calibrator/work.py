@@ -73,8 +73,14 @@ class CalibratorWork:
         if self._fitter.follow(self._session.revision, self._session.poses, now_ns):
             self._results += 1
 
+    def is_asked(self, request: CalibratorRequest) -> bool:
+        """Whether our calibration is meant, and not one that was begun after it."""
+        return request.session == self._setup.id
+
     def answer(self, request: CalibratorRequest) -> CalibratorReply:
         """One question."""
+        if not self.is_asked(request):
+            return CalibratorReply(state=self.state(), reasons=("This calibration is over.",))
         try:
             version_id = self._do(request)
         except CalibrationError as error:

@@ -15,12 +15,15 @@ import numpy as np
 import pytest
 from fastapi.testclient import TestClient
 
+from backend.calibrator.process import kept_in
 from backend.main import create_app
 from backend.settings import Settings
 from backend.station import Station
 from navcore.calibration.calibration_file import CalibrationVersion
+from navcore.calibration.session.session_folder import SessionFolder
+from navcore.calibration.session.state import SessionSetup
 from navcore.calibration.version_folder import VersionFolder
-from navcore.messages import CameraName, RawPicture, RunState
+from navcore.messages import CalibrationJob, CameraName, RawPicture, RunState
 from navcore.sim.board_pictures import BoardPictureParams, BoardPictures
 from navcore.sim.board_poses import BoardPoseParams, BoardPoses
 from navcore.topics import CAMERA_RAW
@@ -153,6 +156,39 @@ def test_what_the_camera_lacks_is_told_and_nothing_can_be_accepted(client: TestC
     refused = client.post(f"{PATH}/accept", json={"made_by": "Ada", "camera": "left"})
     assert refused.status_code == 409
     assert any("8 are needed" in reason or "still being worked out" in reason for reason in refused.json()["reasons"])
+
+
+def test_a_process_that_works_on_an_older_calibration_is_not_believed(
+    client: TestClient, station: Station, settings: Settings
+) -> None:  # fmt: skip
+    """As when a page asks once more while its calibration is thrown away and another one begins."""
+    client.post(PATH, json={"job": "camera"})
+    assert until(lambda: bool(state(client)), START_S)
+    old = worker_pid(station)
+    folder = SessionFolder(settings.calibration_session_dir)
+    before = folder.setup()
+    assert before is not None
+    folder.throw_away()
+    folder.begin(replace(before, id="another one", camera=CameraName.REAR))
+
+    def told() -> bool:
+        document = client.get(PATH).json()
+        assert document["setup"]["id"] == "another one"
+        assert document["state"] is None or document["state"]["setup"]["id"] == "another one"
+        return document["state"] is not None
+
+    assert until(told, START_S)
+    assert worker_pid(station) != old
+    client.delete(PATH)
+
+
+def test_what_is_found_in_a_rehearsal_never_comes_where_the_robot_looks() -> None:
+    setup = SessionSetup(
+        id="s", job=CalibrationJob.CAMERA, camera=CameraName.FRONT, board=BOARD, robot="ant", began_utc=""
+    )  # fmt: skip
+    robot, rehearsals = Path("calibration"), Path("rehearsal")
+    assert kept_in(setup, robot, rehearsals) == robot
+    assert kept_in(replace(setup, rehearsal=True), robot, rehearsals) == rehearsals
 
 
 def test_only_one_calibration_is_under_way(client: TestClient) -> None:

@@ -26,6 +26,10 @@ def test_both_calibrations_are_rehearsed_and_come_out_near_the_truth(
     expect(page.get_by_text("No calibration yet")).to_be_visible()
     expect(page.get_by_text("Calibrate the front camera first")).to_be_visible()
 
+    page.get_by_role("button", name="Calibrate the camera").click()
+    expect(page.get_by_text("No board of 8 x 5 inner corners is seen")).to_be_visible(timeout=HELD_S * 1000)
+    page.get_by_role("button", name="Leave the calibration").click()
+
     rehearse(page, 0)
     wait_for_all_poses(page)
     throw_out_and_bring_back(page)
