@@ -96,7 +96,7 @@ def test_the_verb_says_so_too(tmp_path: Path) -> None:
 
 
 def test_figures_are_plain_json() -> None:
-    from navcore.cli.bench import _report
+    from navcore.cli.figure_lines import report as _report
 
     rows = json.loads(_report(detector_figures(result()), "c", "m"))
     assert {"figure", "value", "unit", "n", "seed", "paper", "baseline", "target", "ok"} <= set(rows[0])

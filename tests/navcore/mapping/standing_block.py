@@ -43,10 +43,10 @@ class StandingBlock:
 
     def post_places(self) -> Floats:
         """(P, 2), line by line."""
-        return self.turned(self._grid(np.arange(self.posts) * self.spacing))
+        return self.turned(self._grid(np.asarray(np.arange(self.posts) * self.spacing, dtype=np.float64)))
 
     def trunk_places(self) -> Floats:
-        return self.turned(self._grid((np.arange(self.posts - 1) + 0.5) * self.spacing))
+        return self.turned(self._grid(np.asarray((np.arange(self.posts - 1) + 0.5) * self.spacing, dtype=np.float64)))
 
     def _grid(self, along: Floats) -> Floats:
         return np.array([(x, k * self.width) for k in range(self.lines) for x in along])
