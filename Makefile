@@ -37,10 +37,11 @@ $(STAMP)/venv: pyproject.toml
 	$(BIN)/python -m pip install --quiet --editable '.[dev]'
 	@touch $@
 
-# Inner loops of the simulated camera and of perception, so that no first picture or scan waits for a compiler.
-$(STAMP)/compiled: $(STAMP)/venv $(wildcard navcore/sim/render/*.py navcore/perception/*kernels.py navcore/perception/*/*kernels.py)
+# Inner loops of the simulated sensors, of perception and of the 3D map: no first picture or scan waits for a compiler.
+$(STAMP)/compiled: $(STAMP)/venv $(wildcard navcore/sim/render/*.py navcore/sim/rays/*.py $(foreach room,perception perception/* localization/ndt maps/ndt,navcore/$(room)/*kernels.py))
 	$(BIN)/python -m navcore.sim.camera_warm_up
 	$(BIN)/python -m navcore.runtime.scan_warm_up
+	$(BIN)/python -m navcore.runtime.cloud_warm_up
 	@touch $@
 
 # A machine without a recent Node gets it from PyPI, into the virtual environment.
