@@ -1,4 +1,4 @@
-"""`python -m navcore.runtime.cloud_warm_up`: compile what casts and matches clouds, so no first cloud waits for it."""
+"""`python -m navcore.runtime.cloud_warm_up`: compiles what casts and matches clouds; no first cloud waits for it."""
 
 from __future__ import annotations
 
