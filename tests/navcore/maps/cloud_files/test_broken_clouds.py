@@ -64,7 +64,7 @@ def test_the_place_where_a_file_ends_is_told() -> None:
 def test_the_line_that_is_no_point_is_told() -> None:
     lines = pcd(POINTS, "ascii").split(b"\n")
     lines[11 + 4] = b"1.0 2.0 0 0 0 three"
-    with pytest.raises(CloudError, match='point 5 is "1.0 2.0 0 0 0 three"'):
+    with pytest.raises(CloudError, match=r'point 5 is "1\.0 2\.0 0 0 0 three"'):
         read_pcd(b"\n".join(lines), "a.pcd")
     lines[11 + 4] = b"1.0 2.0 3.0"
     with pytest.raises(CloudError, match="point 5 is"):
