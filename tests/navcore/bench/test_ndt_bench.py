@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 import numpy as np
 import pytest
 
@@ -52,12 +50,12 @@ def test_time_error_and_reach_are_judged_beside_the_others() -> None:
 
 
 @pytest.fixture
-def without_small_gicp(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+def without_small_gicp(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(ndt_rivals, "_installed", lambda: False)
-    return
 
 
-def test_without_small_gicp_its_rows_are_empty_and_say_why(without_small_gicp: None) -> None:
+@pytest.mark.usefixtures("without_small_gicp")
+def test_without_small_gicp_its_rows_are_empty_and_say_why() -> None:
     found = figures()
     row = found["time over small_gicp's (small_gicp is not installed)"]
     assert (row.value, row.ok, row.n) == (None, None, 0)
