@@ -62,9 +62,7 @@ def _season_figures(block: PearBlock, run: TrellisRun, name: str, tell: Tell) ->
     reference = trellis_reference([run.cloud], cells=False)
     ours = score_posts(places_of(reference.posts), run.standing)
     theirs = score_posts(_published(block, reference, run), run.standing)
-    tell(
-        f"  {name}: ours {ours.found} of {ours.true}, {ours.false} false; filters {theirs.found}, {theirs.false}"
-    )
+    tell(f"  {name}: ours {ours.found} of {ours.true}, {ours.false} false; filters {theirs.found}, {theirs.false}")
     return _post_figures(name, ours, theirs, block.seed) + _wire_figures(name, reference, run, block.seed)
 
 
