@@ -18,7 +18,7 @@ from navcore.mapping.row_map.row_map import RowMap
 from navcore.maps.site_map import Datum
 from navcore.transport.codec import encode
 
-_STEPS = ("Finding the ground", "Looking for posts", "Following the wires", "Finding rows and headlands")
+_STEPS = ("Finding the ground", "Looking for posts", "Finding rows and headlands")
 TOO_LARGE = "This map needs too much memory. Thin it out to a point every 5 cm, or cut it to one block."
 
 

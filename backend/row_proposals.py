@@ -66,11 +66,8 @@ def rows_in_a_map(name: str, datum: Datum) -> ImportKind:
     """The job that finds rows in a file of points of that name, at a site of that datum."""
 
     def command(source: Path, _: Path, settings: Settings) -> list[str]:
-        return [
-            sys.executable, "-m", "backend.row_import", f"--lat-deg={datum.lat_deg!r}",
-            f"--lon-deg={datum.lon_deg!r}", f"--height-m={datum.height_m!r}",
-            f"--memory-bytes={settings.map_memory_bytes}",
-            f"--cpu-s={settings.import_cpu_s}", "--", str(source), name,
-        ]  # fmt: skip
+        place = (f"--lat-deg={datum.lat_deg!r}", f"--lon-deg={datum.lon_deg!r}", f"--height-m={datum.height_m!r}")
+        limits = (f"--memory-bytes={settings.map_memory_bytes}", f"--cpu-s={settings.import_cpu_s}")
+        return [sys.executable, "-m", "backend.row_import", *place, *limits, "--", str(source), name]
 
     return ImportKind(command=command, error=CloudError, broken=BROKEN, done="Rows found")

@@ -31,17 +31,11 @@ class PostScore:
         return float(np.sqrt(np.mean(self.errors**2))) if len(self.errors) else None
 
 
-def nearest_of(points: Floats, places: Floats) -> tuple[Floats, NDArray[np.int64]]:
-    """Distance, m, from each of the places (N, D) to the nearest of the points (M, D), and which that is."""
-    distances, which = KDTree(points).query(places)
-    return np.asarray(distances, dtype=np.float64), np.asarray(which, dtype=np.int64)
-
-
 def score_posts(found: Floats, true: Floats) -> PostScore:
     """Of places (P, 2) and (T, 2), m, each true one met by its nearest."""
     if not len(found):
         return PostScore(found=0, true=len(true), false=0, errors=np.zeros(0))
-    distances, nearest = nearest_of(found, true)
+    distances, nearest = map(np.asarray, KDTree(found).query(true))
     met = distances <= SAME_POST_M
     false = len(found) - len(set(nearest[met].tolist()))
     return PostScore(found=int(met.sum()), true=len(true), false=false, errors=distances[met])
@@ -51,7 +45,7 @@ def still_reported(found: Floats, gone: Floats) -> int:
     """Posts that are gone and were found all the same."""
     if not len(found) or not len(gone):
         return 0
-    return int((nearest_of(found, gone)[0] <= SAME_POST_M).sum())
+    return int((np.asarray(KDTree(found).query(gone)[0]) <= SAME_POST_M).sum())
 
 
 def score_wires(wires: tuple[Wire, ...], true: Floats) -> tuple[int, int, int]:
@@ -60,7 +54,8 @@ def score_wires(wires: tuple[Wire, ...], true: Floats) -> tuple[int, int, int]:
         return 0, len(true), 0
     share = np.linspace(0.02, 0.98, 60)[:, None]
     courses = [np.array(w.begin) + share * (np.array(w.end) - np.array(w.begin)) for w in wires]
-    met = nearest_of(np.concatenate(courses), true)[0] <= SAME_WIRE_M + 0.04
+    met = np.asarray(KDTree(np.concatenate(courses)).query(true)[0]) <= SAME_WIRE_M + 0.04
+    tree = KDTree(true)
     # Between the middles of two pieces, 0.75 m apart, a wire is at most 0.38 m from one of them.
-    on = [(nearest_of(true, course)[0] <= np.hypot(0.38, SAME_WIRE_M)).mean() for course in courses]
+    on = [(tree.query(course)[0] <= np.hypot(0.38, SAME_WIRE_M)).mean() for course in courses]
     return int(met.sum()), len(true), int((np.array(on) < 0.5).sum())

@@ -24,7 +24,7 @@ class HeadlandParams:
         away: it keeps so far off what stands or was not seen, m.
         simplified: its outline strays no further from the found one, m.
         least_depth: less free ground than this beyond the ends is no headland, m.
-        least_hole: holes of a smaller area are left out, m^2.
+        least_hole: holes of a smaller area, m^2, are left out: less than the cell of a single pole.
     """
 
     deepest: float = 12.0
@@ -32,7 +32,7 @@ class HeadlandParams:
     away: float = 0.3
     simplified: float = 0.3
     least_depth: float = 2.5
-    least_hole: float = 0.3
+    least_hole: float = 0.05
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -62,11 +62,12 @@ def headland_of(
     touching = [part for part in parts if part.distance(ends) <= 1.5]
     if not touching:
         return None
-    area = max(touching, key=lambda part: part.area).simplify(params.simplified)
+    whole = max(touching, key=lambda part: part.area)
+    area = shapely.Polygon(whole.exterior).simplify(params.simplified)
     depth = _depth(block.rows, at_start, area, params)
     if area.geom_type != "Polygon" or not area.is_valid or depth < params.least_depth:
         return None
-    holes = [shapely.Polygon(ring) for ring in area.interiors]
+    holes = [shapely.Polygon(ring) for ring in whole.interiors]
     return Headland(
         outline=_ring(area), holes=tuple(_ring(hole) for hole in holes if hole.area >= params.least_hole),
         depth=depth, at_start=at_start,

@@ -16,6 +16,6 @@ def map_rows(
     tell: Callable[[str], None] = lambda _: None,
 ) -> tuple[RowMap, TrellisReference]:
     """What was found, and the trellis that it rests on. Raises CloudError where there is nothing to work on."""
-    reference = trellis_reference(clouds, trellis, cells=False, tell=tell)
+    reference = trellis_reference(clouds, trellis, wires=False, cells=False, tell=tell)
     tell("Finding rows and headlands")
     return row_map(reference, clouds, rows), reference

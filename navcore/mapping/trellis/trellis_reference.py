@@ -67,10 +67,11 @@ def trellis_reference(
     clouds: Sequence[SeenCloud],
     params: TrellisParams = TrellisParams(),
     *,
+    wires: bool = True,
     cells: bool = True,
     tell: Callable[[str], None] = lambda _: None,
 ) -> TrellisReference:
-    """From runs in the order in which they were driven, all in one `map` frame.
+    """From runs in the order in which they were driven, all in one `map` frame; wires and cells only if wanted.
 
     Raises CloudError for no points, for points that cannot be one block, or where no ground is seen.
     """
@@ -84,14 +85,21 @@ def trellis_reference(
     lines = [line for family in families for line in family]
     posts = tuple(uprights.posts[i] for line in lines for i in line)
     numbered = _numbered([len(line) for line in lines])
-    tell("Following the wires")
-    wires = _wires(posts, numbered, [above_ground(cloud, ground) for cloud in clouds], params.wires)
+    strung = _strung(posts, numbered, clouds, ground, params, tell) if wires else ()
     kept = _cells(posts, clouds, params, tell) if cells and posts else None
     in_lines = [places_of([uprights.posts[i] for i in line]) for line in lines]
     return TrellisReference(
         posts=posts, lines=numbered, families=_numbered([len(family) for family in families]),
-        trunks=_in_lines(uprights.trunks, in_lines, params), wires=wires, cells=kept, ground=ground, runs=len(clouds),
+        trunks=_in_lines(uprights.trunks, in_lines, params), wires=strung, cells=kept, ground=ground, runs=len(clouds),
     )  # fmt: skip
+
+
+def _strung(
+    posts: tuple[Post, ...], lines: tuple[tuple[int, ...], ...], clouds: Sequence[SeenCloud], ground: GroundModel,
+    params: TrellisParams, tell: Callable[[str], None],
+) -> tuple[Wire, ...]:  # fmt: skip
+    tell("Following the wires")
+    return _wires(posts, lines, [above_ground(cloud, ground) for cloud in clouds], params.wires)
 
 
 def places_of(posts: Sequence[Post]) -> Floats:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -48,7 +49,7 @@ class StandingBlock:
     def trunk_places(self) -> Floats:
         return self.turned(self._grid(np.asarray((np.arange(self.posts - 1) + 0.5) * self.spacing, dtype=np.float64)))
 
-    def _grid(self, along: Floats) -> Floats:
+    def _grid(self, along: NDArray[np.floating[Any]]) -> Floats:
         return np.array([(x, k * self.width) for k in range(self.lines) for x in along])
 
     def seen(self, *, missing: tuple[int, ...] = (), seed: int = 0, rays: bool = True, leaves: int = 0) -> SeenCloud:
