@@ -1,4 +1,4 @@
-"""Distances in a map against the survey: an exact map has no error, a stretched one its stretch, a turned one none."""
+"""Distances in a map against the survey: an exact map has no error, a stretched one its stretch."""
 
 from __future__ import annotations
 
