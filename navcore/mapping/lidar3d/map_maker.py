@@ -17,7 +17,7 @@ from navcore.mapping.lidar3d.georeference import Georeference, GeoreferenceParam
 from navcore.mapping.lidar3d.keyframe import Keyframe
 from navcore.mapping.lidar3d.keyframe_maker import KeyframeMaker, KeyframeMakerParams
 from navcore.mapping.lidar3d.loops import Loop, LoopFinder, LoopParams, borne_out
-from navcore.mapping.lidar3d.map_report import BELIEVED, MapReport, doubts, fix_figures, loop_rms
+from navcore.mapping.lidar3d.map_report import BELIEVED, MapReport, doubts, fix_figures, loop_rms, lost_turns
 from navcore.mapping.lidar3d.voxel_cloud import VoxelCloud
 from navcore.mapping.lidar3d.work_folder import WorkFolder
 from navcore.mapping.pose_graph.pose_graph import Solution
@@ -28,6 +28,7 @@ Tell = Callable[[float, str], None]
 # How the work divides: keyframes, loops, the map.
 _KEYFRAMES, _LOOPS = 0.75, 0.92
 _HECTARE = 10_000.0
+_NO_SITE = "The map is not georeferenced: the run does not say on which site it was driven."
 # Keyframes that are drawn together: a cell's Gaussian is made once for all of them.
 _AT_ONCE = 20
 
@@ -83,7 +84,7 @@ class MapMaker:
         heads = [replace(k, points=k.points[:0], intensities=k.intensities[:0]) for k in self._work]
         if len(heads) < 2:
             raise LogError(self._nothing(maker.turns))
-        place = georeference(heads, self._params.place)
+        place = self._placed(heads)
         first = place.T_map_odom or SE3.identity()
         poses = [first @ k.T_odom_base for k in heads]
         solution, loops = self._closed(heads, poses, place)
@@ -104,6 +105,11 @@ class MapMaker:
                 driven = f"{keyframe.driven:.0f} m driven, {len(self._work)} places"
                 self._tell(_KEYFRAMES * min(done, 1.0), f"Laying scans on each other: {driven}")
         return maker
+
+    def _placed(self, heads: Sequence[Keyframe]) -> Georeference:
+        if self._drive.datum is None:
+            return Georeference(T_map_odom=None, reason=_NO_SITE)
+        return georeference(heads, self._params.place)
 
     def _nothing(self, turns: int) -> str:
         if not turns:
@@ -167,7 +173,7 @@ class MapMaker:
         driven = heads[-1].driven
         return MapReport(
             drive=self._drive.name, turns=maker.turns, blurred=maker.blurred, keyframes=len(heads), driven=driven,
-            lost=sum(k.lost for k in heads), score=float(np.mean([k.score for k in heads[1:]])),
+            lost=lost_turns(heads), score=float(np.mean([k.score for k in heads[1:]])),
             loops_taken=taken, loops_refused=dict(refused), loop_rms=loop_rms(asked, solution),
             georeferenced=place.T_map_odom is not None, rtk_share=fixes.share, fixes_doubted=fixes.doubted,
             fix_rms=fixes.rms, cells=sum(len(grid) for grid in ndt.grids), map_bytes=ndt.nbytes, points=len(cloud),

@@ -80,6 +80,11 @@ def fix_figures(keyframes: Sequence[Keyframe], solution: Solution | None) -> Fix
     return FixFigures(share=share, doubted=int((~believed).sum()), rms=rms, worst=worst)
 
 
+def lost_turns(keyframes: Sequence[Keyframe]) -> int:
+    """Those that the map about them did not hold; before the second keyframe there is no such map."""
+    return sum(k.lost for k in keyframes[2:])
+
+
 def loop_rms(loops: Sequence[Loop], solution: Solution) -> float | None:
     """Of the believed ones, m."""
     kept = [m for m, w in zip(loops, solution.loop_weights, strict=True) if w >= BELIEVED]
@@ -95,7 +100,7 @@ def doubts(
     taken: int,
 ) -> tuple[str, ...]:  # fmt: skip
     """What people should know before they drive on the map."""
-    lost, scans = sum(k.lost for k in keyframes), sum(k.scans for k in keyframes)
+    lost, scans = lost_turns(keyframes), sum(k.scans for k in keyframes)
     said = [place.reason] if place.reason else []
     if fixes.doubted > _MANY * max(fixes.share * len(keyframes), 1.0):
         said.append(

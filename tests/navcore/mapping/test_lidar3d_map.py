@@ -62,6 +62,12 @@ def test_without_a_receiver_the_map_is_whole_but_lies_nowhere(tmp_path: Path) ->
     assert any("not georeferenced" in doubt for doubt in done.report.doubts)
 
 
+def test_a_run_of_no_known_site_says_that_this_is_why_it_lies_nowhere(tmp_path: Path) -> None:
+    done, _ = made(tmp_path, drive(DriveCase(length=3.0), datum=None))
+    assert done.report.doubts == ("The map is not georeferenced: the run does not say on which site it was driven.",)
+    assert done.report.lost == 0
+
+
 def test_a_receiver_that_lies_by_two_metres_is_noticed_and_said(tmp_path: Path) -> None:
     case = DriveCase(lies=(700, 1000))
     done, stamps = made(tmp_path, drive(case))
