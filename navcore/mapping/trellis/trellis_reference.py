@@ -90,7 +90,8 @@ def trellis_reference(
     in_lines = [places_of([uprights.posts[i] for i in line]) for line in lines]
     return TrellisReference(
         posts=posts, lines=numbered, families=_numbered([len(family) for family in families]),
-        trunks=_in_lines(uprights.trunks, in_lines, params), wires=strung, cells=kept, ground=ground, runs=len(clouds),
+        trunks=_in_lines(uprights.trunks, in_lines, params), wires=strung, cells=kept, ground=ground,
+        runs=len(clouds),
     )  # fmt: skip
 
 
