@@ -153,6 +153,12 @@ def test_a_bad_file_makes_no_map_and_says_why(data: bytes) -> None:
     assert len(str(error)) > 20
 
 
+def test_no_entity_is_ever_expanded() -> None:
+    bomb = b'<!DOCTYPE osm [<!ENTITY a "41.5">]>' + FOREIGN.partition(b"?>")[2].replace(b'"41.50000"', b'"&a;"')
+    assert "DOCTYPE" in str(refused(bomb))
+    assert "DOCTYPE" in str(refused(b'<!DOCTYPE osm SYSTEM "file:///etc/passwd"><osm/>'))
+
+
 @settings(max_examples=150, deadline=None)
 @given(st.data())
 def test_a_mangled_file_is_read_or_refused_in_words(data: st.DataObject) -> None:
