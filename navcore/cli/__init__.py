@@ -5,6 +5,7 @@ from __future__ import annotations
 import typer
 
 from navcore.cli import (
+    bench_localization,
     bench_tracking,
     dataset,
     decode_lidar3d,
@@ -30,6 +31,7 @@ from navcore.cli.decode import decode_app
 app = typer.Typer(
     name="rowpilot", help="Onboard operator station for orchard and vineyard robots.", no_args_is_help=True
 )
+bench_localization.register(bench_app)
 bench_tracking.register(bench_app)
 app.add_typer(bench_app, name="bench")
 app.add_typer(calibrate_app, name="calibrate")

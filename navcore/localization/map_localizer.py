@@ -20,7 +20,7 @@ from navcore.geometry.se3 import SE3
 from navcore.geometry.voxel_means import voxel_means
 from navcore.localization.ndt.ndt_matcher import NdtMatcher, NdtMatcherParams
 from navcore.localization.ndt.registration import Registration
-from navcore.localization.ndt.start_search import StartSearchParams
+from navcore.localization.ndt.start_search import WIDE_SEARCH, StartSearchParams
 from navcore.maps.ndt.ground_height import ground_height
 from navcore.maps.ndt.ndt_map import NdtMap
 from navcore.messages import FixQuality, MapMatch, MatchState, Odometry
@@ -50,7 +50,7 @@ class MapLocalizerParams:
     tracking: NdtMatcherParams = field(default_factory=lambda: NdtMatcherParams(search=_NOWHERE))
     starting: NdtMatcherParams = field(
         default_factory=lambda: NdtMatcherParams(
-            search=StartSearchParams(reach=1.6, turn=math.radians(32.0)), guess_std=1.5, guess_turn_std=0.5
+            search=replace(WIDE_SEARCH, reach=1.6, turn=math.radians(32.0)), guess_std=1.5, guess_turn_std=0.5
         )
     )
     start_std: float = 1.5
