@@ -47,6 +47,7 @@ def nav_status(now: Situation, now_ns: int, events: ActiveEvents) -> NavStatus:
     """The message for the operator."""
     s, pilot, chassis = now.senses, now.pilot, now.senses.chassis
     driven = pilot.route.driven(pilot.place) if pilot else 0.0
+    pose = driven_pose(now)
     return NavStatus(
         stamp_ns=now_ns,
         state=now.state,
@@ -64,7 +65,7 @@ def nav_status(now: Situation, now_ns: int, events: ActiveEvents) -> NavStatus:
         omega=s.pose.omega if s.pose else 0.0,
         speed_limit=now.driving.speed_limit,
         speed_reason=now.driving.speed_reason,
-        pose=driven_pose(now),
+        pose=pose,
         gnss_quality=s.gnss_quality,
         gnss_age_s=s.gnss.age_s(now_ns),
         row_age_s=pilot.row.age_s(now_ns) if pilot else None,
@@ -77,5 +78,5 @@ def nav_status(now: Situation, now_ns: int, events: ActiveEvents) -> NavStatus:
         camera=s.camera.newest,
         camera_roll=s.attitude.mount_roll,
         trunk=pilot.next_trunk() if pilot else None,
-        ghosts=ghosts(now, now_ns, driven_pose(now)),
+        ghosts=ghosts(now, now_ns, pose),
     )

@@ -34,18 +34,20 @@ AS_DRAWN = WorldParams(seed=4, map_error=NO_MAP_ERROR)
 
 
 MOUNT = robot_lidar3d()
+# Half as many rays as the sensor has: the places come out as well, in half the time.
+LIDAR = replace(C16, columns=900)
 
 
 def lidar_of(world: World, seed: int) -> Lidar3dFeed:
     """Turns of a 3D LiDAR in that world."""
     scene = trellised(world.site, world.orchard, world.terrain).scene
-    return Lidar3dFeed(scene, world.terrain, PAPER_A, MOUNT, C16, seed)
+    return Lidar3dFeed(scene, world.terrain, PAPER_A, MOUNT, LIDAR, seed)
 
 
 def mapped(world: World) -> NdtMap:
     """The farm's map, from clouds taken at known places along its roads and rows."""
     ndt_map, site = NdtMap(datum=world.site.datum), world.site
-    lidar = Lidar3d(trellised(site, world.orchard, world.terrain).scene, MOUNT, C16, 9)
+    lidar = Lidar3d(trellised(site, world.orchard, world.terrain).scene, MOUNT, LIDAR, 9)
     ways = [(row.start, row.end) for row in site.rows] + [(lane.points[0], lane.points[-1]) for lane in site.lanes]
     stamp_ns = 0
     for (x0, y0), (x1, y1) in ways:
