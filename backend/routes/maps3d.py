@@ -15,7 +15,7 @@ from navcore.recording.message_count import message_count
 from navcore.topics import LIDAR3D_CLOUD
 
 router = APIRouter(prefix="/api", tags=["3D maps"], responses=ERRORS)
-FileName = Annotated[str, Path(min_length=1, max_length=40)]
+FileName = Annotated[str, Path(pattern=r"^[0-9a-z.]{1,40}$")]
 
 
 @router.get("/runs/{run_id}/map3d")

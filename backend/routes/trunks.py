@@ -15,7 +15,7 @@ from navcore.maps.trunk_import import import_trunks
 from navcore.maps.trunk_map import TrunkMap, trunks_of_row
 
 router = APIRouter(prefix="/api", tags=["trunks"], responses=ERRORS)
-TrunkId = Annotated[str, Path(min_length=1, max_length=200)]
+TrunkId = Annotated[str, Path(pattern=r"^[\w .:+-]{1,200}$")]
 GeoJson = Annotated[dict[str, Any], Body(description="GeoJSON FeatureCollection of points")]
 
 

@@ -33,7 +33,9 @@ def processor_s(site: SiteMap, mission: Mission) -> float:
 @pytest.mark.parametrize("row_exit", RowExit)
 def test_a_thousand_rows_are_planned_in_about_a_second(row_exit: RowExit) -> None:
     site = farm(rows=1000, width=3.0)
-    assert processor_s(site, mission_for_row(site, "R500", row_exit)) < 2.0  # 0.6 on one core of 2020
+    assert (
+        processor_s(site, mission_for_row(site, "R500", row_exit)) < 6.0
+    )  # 0.6 on one core of 2020; a busy computer may take several times that
 
 
 def test_blocks_without_lanes_are_gone_round_whatever_their_number() -> None:

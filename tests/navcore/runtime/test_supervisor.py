@@ -207,5 +207,17 @@ def is_running(pid: int) -> bool:
 
 def test_the_table_starts_the_world_before_the_guard_and_the_station_last() -> None:
     names = [spec.name for spec in PROCESSES]
-    assert names == ["world", "guard", "recorder", "navigator", "row_worker", "station"]
-    assert {spec.name for spec in PROCESSES if spec.knows_site} == {"world", "navigator", "row_worker"}
+    assert names == ["world", "guard", "recorder", "navigator", "row_worker", "scan_worker", "station"]
+    knowing = {spec.name for spec in PROCESSES if spec.knows_site}
+    assert knowing == {"world", "navigator", "row_worker", "scan_worker"}
+
+
+@pytest.mark.parametrize("lidar3d", [True, False])
+def test_only_a_robot_with_a_3d_lidar_has_a_scan_worker(tmp_path: Path, lidar3d: bool) -> None:
+    simulation = SimulationParams(lidar3d=lidar3d)
+    robot = Robot(
+        bus=tmp_path, site=tmp_path / "farm.json", vehicle="paper_a", can=CanSettings(), gnss="tcp://127.0.0.1:1",
+        simulation=simulation,
+    )  # fmt: skip
+    spec = next(spec for spec in PROCESSES if spec.name == "scan_worker")
+    assert spec.wanted(robot) is lidar3d
