@@ -57,7 +57,12 @@ class MapEvidence:
 
     def add_fix(self, fix: GnssFix, T_odom_base: SE2) -> None:
         """One fix with the odometry at its capture: only a fixed RTK position is a witness."""
-        if fix.quality is not FixQuality.RTK_FIXED or fix.lat_deg is None or fix.lon_deg is None:
+        if (
+            self.newest is None
+            or fix.quality is not FixQuality.RTK_FIXED
+            or fix.lat_deg is None
+            or fix.lon_deg is None
+        ):
             return
         east, north = self._place(fix.lat_deg, fix.lon_deg, fix.height_m)
         std = max(fix.std_east_m or 0.0, fix.std_north_m or 0.0)

@@ -182,7 +182,10 @@ class Voice:
 class NavigatorProcess:
     """Senses, navigator, voice, and the clock that drives them."""
 
-    def __init__(self, endpoints: Endpoints, site: SiteMap, gnss_address: str, config: RobotConfig) -> None:
+    def __init__(
+        self, endpoints: Endpoints, site: SiteMap, gnss_address: str, config: RobotConfig, *, tells_motion: bool
+    ) -> None:
+        self._tells_motion = tells_motion
         self._senses = Senses(endpoints, gnss_address)
         datum = (site.datum.lat_deg, site.datum.lon_deg, site.datum.height_m)
         self._voice = Voice(endpoints, config, datum)
@@ -198,7 +201,8 @@ class NavigatorProcess:
         self._senses.guard.send(decision.guard_request, decision.command, now_ns)
         self._senses.answer(decision.replies)
         self._voice.tell(inputs, encoded, taken)
-        self._voice.tell_motion(self._understudy.leading.odometry(now_ns))
+        if self._tells_motion:
+            self._voice.tell_motion(self._understudy.leading.odometry(now_ns))
         if decision.status.state is RunState.IDLE and self._collect.due(now_ns):
             gc.collect()  # only here, where a pause moves nothing
 
@@ -215,12 +219,15 @@ def main() -> None:
     parser.add_argument("--site", type=Path, required=True, help="site map as JSON")
     parser.add_argument("--gnss", required=True, help="tcp://host:port or serial:///dev/ttyUSB0?115200")
     parser.add_argument("--config", type=Path, help="settings of the robot, TOML")
+    parser.add_argument("--tell-motion", action="store_true", help="at every tick, to the scan worker")
     given = parser.parse_args()
     config = load_config(given.config) if given.config else RobotConfig()
     ended: list[int] = []
     signal.signal(signal.SIGTERM, lambda number, _: ended.append(number))
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    process = NavigatorProcess(Endpoints(given.bus), read_site(given.site), given.gnss, config)
+    process = NavigatorProcess(
+        Endpoints(given.bus), read_site(given.site), given.gnss, config, tells_motion=given.tell_motion
+    )
     no_pauses()
     be_prompt(PRIORITY)
     ticker = Ticker(TICK_NS)

@@ -87,7 +87,8 @@ def guard_arguments(robot: Robot) -> tuple[str, ...]:
 
 def navigator_arguments(robot: Robot) -> tuple[str, ...]:
     """See navigator_process."""
-    return (*_bus(robot), *_site(robot), "--gnss", robot.gnss, *_config(robot))
+    motion = ("--tell-motion",) if has_lidar3d(robot) else ()
+    return (*_bus(robot), *_site(robot), "--gnss", robot.gnss, *_config(robot), *motion)
 
 
 def world_arguments(robot: Robot) -> tuple[str, ...]:

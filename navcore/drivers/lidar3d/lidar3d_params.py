@@ -91,8 +91,7 @@ class Lidar3dParams:
 
     def T_base_lidar(self) -> SE3:
         """From `lidar3d` to `base_link`."""
-        mount = self.mount
-        return SE3.from_rpy((mount.x, mount.y, mount.z), mount.roll, mount.pitch, mount.yaw)
+        return self.mount.T_base_lidar()
 
 
 def _is_address(text: str) -> bool:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
-from navcore.geometry.lidar_mount import LidarMount
+from navcore.geometry.lidar_mount import LidarMount, robot_lidar3d
 from navcore.geometry.se3 import SE3
 from navcore.maps.site_map import Datum
 from navcore.messages import NavInputs
@@ -19,17 +19,16 @@ class Rig:
     """Where things sit on the robot, in `base_link`.
 
     Attributes:
-        lidar: the 3D LiDAR; (0.2, 0, 0.25) is paper C's.
+        lidar: the 3D LiDAR; paper C's if nothing is told.
         antenna: (x, y, z) of the main GNSS antenna, m.
     """
 
-    lidar: LidarMount = LidarMount(x=0.2, y=0.0, z=0.25)
+    lidar: LidarMount = field(default_factory=robot_lidar3d)
     antenna: tuple[float, float, float] = (0.0, 0.0, 1.2)
 
     def T_base_lidar(self) -> SE3:
         """From the sensor's frame to the robot's."""
-        m = self.lidar
-        return SE3.from_rpy((m.x, m.y, m.z), roll=m.roll, pitch=m.pitch, yaw=m.yaw)
+        return self.lidar.T_base_lidar()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
