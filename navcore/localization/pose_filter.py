@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
@@ -15,6 +14,7 @@ from navcore.localization.belief_history import BeliefHistory, Event
 from navcore.localization.dead_reckoning import DeadReckoning, DeadReckoningParams
 from navcore.localization.filter_start import FilterStart, FilterStartParams
 from navcore.localization.filter_status import FilterStatus
+from navcore.localization.filter_tally import FilterTally
 from navcore.localization.gnss_correction import GnssCorrection, GnssCorrectionParams
 from navcore.localization.gnss_noise import GnssNoise, GnssNoiseParams
 from navcore.localization.map_correction import MapCorrection, MapCorrectionParams
@@ -67,11 +67,7 @@ class PoseFilter:
         self._history = BeliefHistory(round(p.history_s / NS), self._motion.propagate)
         self._v_wheel = 0.0
         self._rate = 0.0
-        self._newest_ns: dict[Evidence, int] = {}
-        self._accepted: Counter[str] = Counter()
-        self._rejected: Counter[str] = Counter()
-        self._relocations = 0
-        self._reason = "no position yet"
+        self._tally = FilterTally()
 
     def add_chassis(self, state: ChassisState) -> None:
         """Wheel odometry."""
@@ -120,7 +116,7 @@ class PoseFilter:
         def apply(b: Belief) -> list[Verdict]:
             return self._gnss.apply(b, fix, east, north, self._motion.velocity(b).omega)
 
-        self._count(self._history.add(Event(fix.stamp_ns, apply)), fix.stamp_ns)
+        self._tally.count(self._history.add(Event(fix.stamp_ns, apply)), fix.stamp_ns)
         b = self._history.newest
         self._odometry.learn_scale(float(b.mean[SPEED_SCALE]))
         if fix.quality is FixQuality.RTK_FIXED:  # headings under leaves are wrong for long, and the bias with them
@@ -135,12 +131,12 @@ class PoseFilter:
         def apply(b: Belief) -> list[Verdict]:
             return [self._map.apply(b, match)]
 
-        self._count(self._history.add(Event(match.stamp_ns, apply)), match.stamp_ns)
+        self._tally.count(self._history.add(Event(match.stamp_ns, apply)), match.stamp_ns)
 
     def restart(self, reason: str) -> None:
         """Forget the pose and wait for a new position and heading, at an operator's word."""
         self._history.stop()
-        self._reason = reason
+        self._tally.reason = reason
 
     def estimate(self, now_ns: int) -> PoseEstimate | None:
         """Pose predicted to `now_ns`, None until position and heading are known."""
@@ -183,31 +179,31 @@ class PoseFilter:
         return FilterStatus(
             stamp_ns=now_ns,
             ready=belief is not None,
-            reason=self._reason,
+            reason=self._tally.reason,
             quality=belief.quality if belief else FixQuality.NONE,
             fix_age_s=(now_ns - belief.fix_ns) * NS if belief else None,
-            heading_age_s=self._age(now_ns, Evidence.HEADING, Evidence.COURSE),
+            heading_age_s=self._tally.age_s(now_ns, Evidence.HEADING, Evidence.COURSE),
             position_std=belief.position_std if belief else None,
             yaw_std=math.sqrt(belief.cov[YAW, YAW]) if belief else None,
             dead_reckoned=belief.distance if belief else 0.0,
             position_doubt_s=_since(now_ns, belief.doubt_ns if belief else None),
             heading_doubt_s=_since(now_ns, belief.heading_doubt_ns if belief else None),
-            relocations=self._relocations,
-            accepted=dict(sorted(self._accepted.items())),
-            rejected=dict(sorted(self._rejected.items())),
+            relocations=self._tally.relocations,
+            accepted=dict(sorted(self._tally.accepted.items())),
+            rejected=dict(sorted(self._tally.rejected.items())),
         )
 
     def _try_start(self, fix: GnssFix, east: float | None, north: float | None) -> None:
         if east is None or north is None:
-            self._reason = "no position yet"
+            self._tally.reason = "no position yet"
             return
         belief = self._start.belief(fix, east, north, self._v_wheel, self._rate)
         if isinstance(belief, str):
-            self._reason = belief
+            self._tally.reason = belief
             return
-        self._reason = ""
+        self._tally.reason = ""
         self._history.start(belief)
-        self._count([Verdict(Evidence.POSITION, True), Verdict(Evidence.HEADING, True)], fix.stamp_ns)
+        self._tally.count([Verdict(Evidence.POSITION, True), Verdict(Evidence.HEADING, True)], fix.stamp_ns)
 
     def _place(self, fix: GnssFix) -> tuple[float | None, float | None]:
         if fix.lat_deg is None or fix.lon_deg is None or not self._noise.is_usable(fix.quality):
@@ -219,8 +215,7 @@ class PoseFilter:
     def _is_sound(self, evidence: Evidence, stamp_ns: int, numbers: Iterable[float | None]) -> bool:
         reason = self._unsound(evidence, stamp_ns, numbers)
         if reason:
-            self._rejected[f"{evidence}: {reason}"] += 1
-            self._reason = f"{evidence} refused: {reason}"
+            self._tally.refuse(evidence, reason)
         return not reason
 
     def _unsound(self, evidence: Evidence, stamp_ns: int, numbers: Iterable[float | None]) -> str:
@@ -233,21 +228,6 @@ class PoseFilter:
             return "too late"
         ahead = evidence is not Evidence.INPUT and stamp_ns - newest_ns > self._params.future_s / NS
         return "stamped in the future" if ahead else ""
-
-    def _count(self, verdicts: list[Verdict], stamp_ns: int) -> None:
-        for verdict in verdicts:
-            if verdict.accepted:
-                self._accepted[verdict.evidence] += 1
-                self._newest_ns[verdict.evidence] = stamp_ns
-                self._relocations += bool(verdict.reason)
-            else:
-                self._rejected[verdict.evidence] += 1
-        reasons = [v.reason for v in verdicts if v.reason]
-        self._reason = "; ".join(reasons)
-
-    def _age(self, now_ns: int, *evidence: Evidence) -> float | None:
-        stamps = [self._newest_ns[e] for e in evidence if e in self._newest_ns]
-        return (now_ns - max(stamps)) * NS if stamps else None
 
     def _source(self, b: Belief) -> str:
         position = b.quality.name.lower() if (b.stamp_ns - b.fix_ns) * NS < 1.0 else "dead_reckoning"

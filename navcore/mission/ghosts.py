@@ -28,7 +28,7 @@ def _places(now: Situation, now_ns: int, driven: PoseEstimate) -> Iterator[tuple
     senses, pilot = now.senses, now.pilot
     age_s, fix = senses.gnss.age_s(now_ns), senses.gnss.newest
     if fix is not None and age_s is not None and age_s <= FRESH_S:
-        by_fix = senses.on_map.base_at(fix, driven.yaw)
+        by_fix = senses.on_map.base_by_fix(driven.yaw)
         if by_fix is not None:
             yield GhostSource.GNSS, _carried(by_fix, senses.filter.odom_at(fix.stamp_ns), senses.T_odom_base)
     if pilot is not None:

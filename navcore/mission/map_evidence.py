@@ -33,7 +33,7 @@ class MapEvidence:
 
     Attributes:
         newest: the newest match that was believed. told: the newest of all. streak: believed ones in a row.
-        T_map_odom: by the newest that was believed.
+        T_map_odom: by the newest that was believed. antenna_at: by the newest fix, in `map`, m.
     """
 
     def __init__(self, frame: EnuFrame, params: MapEvidenceParams) -> None:
@@ -44,6 +44,7 @@ class MapEvidence:
         self.told: MapMatch | None = None
         self.streak = 0
         self.T_map_odom = SE2()
+        self.antenna_at: tuple[float, float] | None = None
 
     def add(self, match: MapMatch, T_odom_base: SE2) -> bool:
         """One match with the odometry at its capture; whether it may move the pose."""
@@ -57,24 +58,20 @@ class MapEvidence:
 
     def add_fix(self, fix: GnssFix, T_odom_base: SE2) -> None:
         """One fix with the odometry at its capture: only a fixed RTK position is a witness."""
-        if (
-            self.newest is None
-            or fix.quality is not FixQuality.RTK_FIXED
-            or fix.lat_deg is None
-            or fix.lon_deg is None
-        ):
+        if self.told is None or fix.lat_deg is None or fix.lon_deg is None:
             return
-        east, north = self._place(fix.lat_deg, fix.lon_deg, fix.height_m)
+        east, north = self.antenna_at = self._place(fix.lat_deg, fix.lon_deg, fix.height_m)
+        if fix.quality is not FixQuality.RTK_FIXED:
+            return
         std = max(fix.std_east_m or 0.0, fix.std_north_m or 0.0)
         self._watch.add_fix(fix.stamp_ns, east, north, std, T_odom_base, self._antenna)
 
-    def base_at(self, fix: GnssFix, yaw: float) -> SE2 | None:
-        """Where a fix alone puts `base_link`, looking along `yaw`; None without a place."""
-        if fix.lat_deg is None or fix.lon_deg is None:
+    def base_by_fix(self, yaw: float) -> SE2 | None:
+        """Where the newest fix alone puts `base_link`, looking along `yaw`; None before one with a place."""
+        if self.antenna_at is None:
             return None
         ax, ay = SE2(0.0, 0.0, yaw).apply_point(*self._antenna)
-        east, north = self._place(fix.lat_deg, fix.lon_deg, fix.height_m)
-        return SE2(east - ax, north - ay, yaw)
+        return SE2(self.antenna_at[0] - ax, self.antenna_at[1] - ay, yaw)
 
     def _place(self, lat_deg: float, lon_deg: float, height_m: float | None) -> tuple[float, float]:
         east, north, _ = self._frame.to_enu(lat_deg, lon_deg, self._frame.height_m if height_m is None else height_m)

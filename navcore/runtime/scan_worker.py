@@ -52,10 +52,10 @@ class ScanWorker:
         while (received := self._bus.receive(0)) is not None:
             self._matcher.hear(decode(Odometry, received.payload))
         for turn in self._clouds.take():
-            self._publisher.publish(LIDAR3D_CLOUD.name, packed(turn.stamp_ns, turn.cloud))
             match = self._match(turn)
             latency_ms = (time.monotonic_ns() - turn.stamp_ns) * 1e-6
             self._publisher.publish(MAP_MATCH.name, replace(match, latency_ms=latency_ms))
+            self._publisher.publish(LIDAR3D_CLOUD.name, packed(turn.stamp_ns, turn.cloud))
 
     def close(self) -> None:
         """Let go of all."""
