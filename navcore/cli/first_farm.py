@@ -55,7 +55,7 @@ def _make_demo(settings: Settings, database: Database) -> None:
     from backend.ids import new_id
     from backend.import_jobs import ImportJobs
     from backend.missions import MissionStore
-    from navcore.sim.orthophoto_painter import write_orthophoto
+    from navcore.sim.orthophoto.painter import write_orthophoto
 
     uploads.clear(settings)
     site = _demo_site()

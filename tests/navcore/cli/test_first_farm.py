@@ -16,8 +16,8 @@ from backend.sites import SiteStore
 from navcore.cli.first_farm import BeginningFarm, beginning_farm
 from navcore.maps.site_map import SiteMap
 from navcore.planning.validation import find_problems
-from navcore.sim import orthophoto_painter
 from navcore.sim.demo_farm import demo_farm
+from navcore.sim.orthophoto import painter
 from navcore.transport.codec import decode
 from navcore.vehicle import PROFILES
 
@@ -38,7 +38,7 @@ def database(settings: Settings) -> Iterator[Database]:
 @pytest.fixture
 def no_picture(monkeypatch: pytest.MonkeyPatch) -> None:
     """The demo farm's picture comes out as something that is none."""
-    monkeypatch.setattr(orthophoto_painter, "write_orthophoto", lambda site, path: path.write_bytes(b"no picture"))
+    monkeypatch.setattr(painter, "write_orthophoto", lambda site, path: path.write_bytes(b"no picture"))
 
 
 def map_of(farm: BeginningFarm) -> SiteMap:

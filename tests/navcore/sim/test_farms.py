@@ -15,7 +15,8 @@ from navcore.maps.site_map import SiteMap, ZoneKind
 from navcore.sim.demo_farm import demo_farm
 from navcore.sim.layouts import scoring_layout, tuning_layout
 from navcore.sim.orchard import OrchardParams, build_orchard
-from navcore.sim.orthophoto_painter import OrthophotoParams, write_orthophoto
+from navcore.sim.orthophoto.painter import write_orthophoto
+from navcore.sim.orthophoto.params import OrthophotoParams
 
 FARMS = [demo_farm(), *map(scoring_layout, range(6)), *map(tuning_layout, range(3))]
 
