@@ -1,4 +1,4 @@
-import { Button, Group, Modal } from "@mantine/core";
+import { Button, Group, Menu, Modal } from "@mantine/core";
 import { useMutation, useQueryClient } from "@tanstack/react-query";
 import { IconDownload, IconTrash } from "@tabler/icons-react";
 import { useState } from "react";
@@ -6,6 +6,7 @@ import { useState } from "react";
 import { remove, sentences } from "../api/client";
 import type { Map3d } from "../api/types";
 import { bytes, centimetres, moment, percent, way } from "../ui/format";
+import { MoreButton } from "../ui/MoreButton";
 import { Reasons } from "../ui/Reasons";
 import { UseMap3d } from "./UseMap3d";
 import css from "./runs.module.css";
@@ -14,6 +15,7 @@ const NAMES: Record<string, string> = { "map.ndt": "NDT map", "cloud.laz": "Clou
 
 /** What a map is good for, and its files. */
 export function Map3dResult({ siteId, map }: { siteId: string; map: Map3d }) {
+  const [asked, setAsked] = useState(false);
   const url = `/api/sites/${siteId}/maps3d/${map.run_id}`;
   return (
     <>
@@ -27,14 +29,17 @@ export function Map3dResult({ siteId, map }: { siteId: string; map: Map3d }) {
         ))}
       </dl>
       <UseMap3d siteId={siteId} map={map} />
-      <div className={css.downloads}>
+      <MoreButton label="Files of the 3D map">
         {map.files.map((file) => (
-          <Button key={file.name} size="md" component="a" href={`${url}/files/${file.name}`} download variant="default" leftSection={<IconDownload size={18} />}>
+          <Menu.Item key={file.name} component="a" href={`${url}/files/${file.name}`} download leftSection={<IconDownload size={20} />}>
             {NAMES[file.name] ?? file.name}, {bytes(file.size_bytes)}
-          </Button>
+          </Menu.Item>
         ))}
-        <ThrowAway url={url} runId={map.run_id} />
-      </div>
+        <Menu.Item color="red" leftSection={<IconTrash size={20} />} onClick={() => setAsked(true)}>
+          Throw away …
+        </Menu.Item>
+      </MoreButton>
+      {asked && <ThrowAway url={url} runId={map.run_id} onClose={() => setAsked(false)} />}
     </>
   );
 }
@@ -48,32 +53,27 @@ const figures = (map: Map3d): [string, string][] => [
   ["Places passed twice", `${map.loops_taken}`],
 ];
 
-function ThrowAway({ url, runId }: { url: string; runId: string }) {
-  const [asked, setAsked] = useState(false);
+function ThrowAway({ url, runId, onClose }: { url: string; runId: string; onClose: () => void }) {
   const client = useQueryClient();
   const erase = useMutation({
     mutationFn: () => remove(url),
-    onSuccess: () =>
-      Promise.all([client.invalidateQueries({ queryKey: ["map3d", runId] }), client.invalidateQueries({ queryKey: ["maps3d"] })]),
-    onSettled: () => setAsked(false),
+    onSuccess: () => {
+      onClose();
+      return Promise.all([client.invalidateQueries({ queryKey: ["map3d", runId] }), client.invalidateQueries({ queryKey: ["maps3d"] })]);
+    },
   });
   return (
-    <>
-      <Button size="md" variant="default" color="red" leftSection={<IconTrash size={18} />} onClick={() => setAsked(true)}>
-        Throw away
-      </Button>
+    <Modal opened onClose={onClose} title={<b>Throw this 3D map away?</b>}>
+      <p>Its files are deleted. The run stays, and the map can be made of it again.</p>
       {erase.error && <Reasons reasons={sentences(erase.error)} />}
-      <Modal opened={asked} onClose={() => setAsked(false)} title={<b>Throw this 3D map away?</b>}>
-        <p>Its files are deleted. The run stays, and the map can be made of it again.</p>
-        <Group grow>
-          <Button size="md" variant="default" onClick={() => setAsked(false)} data-autofocus>
-            Keep it
-          </Button>
-          <Button size="md" color="red" loading={erase.isPending} onClick={() => erase.mutate()}>
-            Throw it away
-          </Button>
-        </Group>
-      </Modal>
-    </>
+      <Group grow>
+        <Button size="md" variant="default" onClick={onClose} data-autofocus>
+          Keep it
+        </Button>
+        <Button size="md" color="red" loading={erase.isPending} onClick={() => erase.mutate()}>
+          Throw it away
+        </Button>
+      </Group>
+    </Modal>
   );
 }
