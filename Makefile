@@ -10,8 +10,9 @@ export PATH := $(CURDIR)/$(VENV)/bin:$(PATH)
 run: setup frontend compiled
 	$(BIN)/rowpilot run
 
+# Two tests at a time, one thread each: several threads that wait for each other by turning round cost minutes.
 test: check browser compiled
-	$(BIN)/pytest -n 2 --dist loadfile -m "not realtime"
+	OMP_NUM_THREADS=1 $(BIN)/pytest -n 2 --dist loadfile -m "not realtime"
 	$(BIN)/pytest -m realtime
 
 check: setup frontend
