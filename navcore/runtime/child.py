@@ -15,6 +15,8 @@ FIRST_PAUSE_S = 0.2
 LONGEST_PAUSE_S = 30.0
 CALM_S = 30.0
 TIED = "navcore.runtime.tied"
+# Matrices here are small: threads that share them wait for each other, and take the cores from who is in a hurry.
+ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
 
 
 class Child:
@@ -32,7 +34,7 @@ class Child:
     def start(self, robot: Robot, now_s: float) -> None:
         """Start it; it ends with us, however we end."""
         command = (sys.executable, "-m", TIED, self.spec.module, *self.spec.arguments(robot))
-        environment = {**os.environ, **self._environment}
+        environment = {**ONE_THREAD, **os.environ, **self._environment}
         self._process = subprocess.Popen(command, env=environment, start_new_session=True)
         self._started_s, self._start_at_s = now_s, None
 
