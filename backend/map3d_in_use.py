@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from backend.disk import write_durably
 from backend.errors import ConflictError, NotFoundError
 from backend.map3d_store import NONE, Map3dStore
+from navcore.disk import write_durably
 
 MAP = "map.ndt"
 NOT_ON_EARTH = "This map has no place on the Earth, so the robot cannot drive by it. Map a run that had RTK."

@@ -14,10 +14,10 @@ from numpy.typing import NDArray
 from rio_tiler.errors import TileOutsideBounds
 from rio_tiler.io import Reader
 
-from backend.disk import sync_folder, write_durably
 from backend.errors import NotFoundError
 from backend.gdal_setup import gdal, open_geotiff
 from backend.schemas import OrthophotoInfo
+from navcore.disk import sync_folder, write_durably
 
 TILE_PX = 256
 Image = NDArray[np.uint8]

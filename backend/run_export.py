@@ -9,8 +9,8 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from backend.disk import write_durably
 from backend.run_track import read_track
+from navcore.disk import write_durably
 from navcore.errors import InputError
 from navcore.mapping.trunks_seen import trunks_seen
 from navcore.promptness import stand_back

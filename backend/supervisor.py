@@ -6,8 +6,8 @@ import time
 from pathlib import Path
 from threading import Lock
 
-from backend.disk import write_durably
 from backend.errors import RefusedError
+from navcore.disk import write_durably
 from navcore.errors import TransportError
 from navcore.maps.site_map import SiteMap
 from navcore.transport.codec import encode

@@ -9,12 +9,12 @@ from sqlalchemy.orm import Session
 
 from backend import documents
 from backend.database import Database
-from backend.disk import write_durably
 from backend.errors import NotFoundError
 from backend.models import Site
 from backend.models import TrunkMap as TrunkMapRow
 from backend.schemas import TrunksMapped
 from backend.shown_trunks import shown_file
+from navcore.disk import write_durably
 from navcore.mapping.merged_runs import merged
 from navcore.maps.site_map import SiteMap
 from navcore.maps.trunk_map import TrunkMap, trunks_of_row

@@ -11,6 +11,7 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
+from navcore.disk import write_durably
 from navcore.errors import CalibrationError
 from navcore.geometry.intrinsics import Intrinsics
 from navcore.geometry.lens import Lens
@@ -57,9 +58,7 @@ def save_version(version: CalibrationVersion, path: Path) -> None:
     """Write a new file. Raises CalibrationError where one is, or where something is not fit to be kept."""
     _check(version, str(path))
     try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        with path.open("xb") as file:
-            file.write(msgspec.json.format(msgspec.json.encode(version), indent=2))
+        write_durably(path, msgspec.json.format(msgspec.json.encode(version), indent=2), new=True)
     except FileExistsError:
         raise CalibrationError((f"{path} is there already. Versions are kept: give another name.",)) from None
     except OSError as error:

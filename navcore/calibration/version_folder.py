@@ -5,7 +5,6 @@ Beside the files `<camera>/<id>.json` stands `<camera>/in_use`, which holds an i
 
 from __future__ import annotations
 
-import os
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -17,6 +16,7 @@ from navcore.calibration.calibration_file import (
     save_version,
     versions,
 )
+from navcore.disk import write_durably
 from navcore.errors import CalibrationError
 from navcore.messages import CameraName
 
@@ -57,7 +57,7 @@ class VersionFolder:
                 pointer.unlink(missing_ok=True)
                 return
             self._load(camera, version_id)
-            _replace(pointer, f"{version_id}\n")
+            write_durably(pointer, f"{version_id}\n".encode())
         except OSError as error:
             raise CalibrationError((f"{pointer} cannot be written: {error.strerror}.",)) from error
 
@@ -90,14 +90,3 @@ class VersionFolder:
             return StoredVersion(id=path.stem, version=load_version(path, robot=self._robot))
         except CalibrationError as error:
             return StoredVersion(id=path.stem, version=None, problem=str(error))
-
-
-def _replace(path: Path, text: str) -> None:
-    """The whole text under that name or what was there before, whenever the power fails."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    beside = path.with_suffix(".new")
-    with beside.open("w", encoding="utf-8") as file:
-        file.write(text)
-        file.flush()
-        os.fsync(file.fileno())
-    beside.replace(path)

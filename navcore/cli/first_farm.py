@@ -109,7 +109,7 @@ def _demo_site() -> SiteMap:
 
 
 def _write(path: Path, site: SiteMap) -> Path:
-    from backend.disk import write_durably
+    from navcore.disk import write_durably
     from navcore.transport.codec import encode
 
     write_durably(path, encode(site))

@@ -11,6 +11,7 @@ from typing import Any
 import msgspec
 from mcap.writer import CompressionType, Writer
 
+from navcore.disk import sync_folder
 from navcore.errors import InputError
 from navcore.messages import CameraView, GnssFix
 from navcore.recording import foxglove
@@ -57,7 +58,7 @@ class RunLog:
         self._writer.add_metadata(METADATA, metadata | own)
         self._register_topics()
         self._sync(now_ns)
-        _sync_directory(path.parent)
+        sync_folder(path.parent)
 
     def write(self, received: Received, now_ns: int) -> None:
         """Append a message as it came, and what follows from it for other programs."""
@@ -141,12 +142,3 @@ def schema_of(type_: type) -> dict[str, Any]:
     schema = msgspec.json.schema(type_)
     definitions = schema["$defs"]
     return {**definitions[type_.__name__], "$defs": definitions}
-
-
-def _sync_directory(directory: Path) -> None:
-    """A new file's name is on the disk only after this."""
-    handle = os.open(directory, os.O_RDONLY)
-    try:
-        os.fsync(handle)
-    finally:
-        os.close(handle)

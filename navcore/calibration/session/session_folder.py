@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 import math
-import os
 import shutil
 from dataclasses import dataclass
 from pathlib import Path
@@ -17,6 +16,7 @@ import numpy as np
 from navcore.calibration.board import Board, BoardSighting
 from navcore.calibration.board_run import PlainScan
 from navcore.calibration.session.state import SessionSetup, Taken
+from navcore.disk import write_durably
 from navcore.errors import CalibrationError
 
 SETUP = "setup.json"
@@ -94,13 +94,8 @@ class SessionFolder:
 
     def _write(self, name: str, data: bytes) -> None:
         """Whole or not at all, whenever the process or the power fails."""
-        beside = self._folder / f"{name}.new"
         try:
-            with beside.open("wb") as file:
-                file.write(data)
-                file.flush()
-                os.fsync(file.fileno())
-            beside.replace(self._folder / name)
+            write_durably(self._folder / name, data)
         except OSError as error:
             raise CalibrationError((f"{name} cannot be written: {error.strerror}. Look at the disk.",)) from error
 

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import json
-import os
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import overload
 
+from navcore.disk import write_durably
 from navcore.errors import InputError
 from navcore.mapping.lidar3d.keyframe import Keyframe, keyframe_bytes, read_keyframe
 
@@ -50,14 +50,8 @@ class WorkFolder(Sequence[Keyframe]):
 
     def append(self, keyframe: Keyframe) -> None:
         """On disk, whole or not at all, when this returns. Raises InputError where the disk is full."""
-        path = self._path(self._count)
-        unfinished = path.with_suffix(".unfinished")
         try:
-            with unfinished.open("wb") as file:
-                file.write(keyframe_bytes(keyframe))
-                file.flush()
-                os.fsync(file.fileno())
-            unfinished.replace(path)
+            write_durably(self._path(self._count), keyframe_bytes(keyframe))
         except OSError as error:
             raise InputError(f"A keyframe cannot be kept: {error.strerror}. Make room on the disk, go on.") from error
         self._count += 1

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
+from navcore.disk import write_durably
 from navcore.errors import CloudError
 from navcore.geometry.point_cloud import PointCloud
 from navcore.maps.cloud_files.file_cloud import FileCloud
@@ -42,10 +43,7 @@ def write_cloud(path: Path, cloud: PointCloud) -> None:
         data = laz_bytes(cloud)
     else:
         raise CloudError(f"{path}: clouds are written as .pcd or .laz.")
-    unfinished = path.with_name(path.name + ".unfinished")
     try:
-        unfinished.write_bytes(data)
-        unfinished.replace(path)
+        write_durably(path, data)
     except OSError as error:
-        unfinished.unlink(missing_ok=True)
         raise CloudError(f"{path} cannot be written: {error.strerror or error}.") from None
