@@ -141,9 +141,8 @@ class WatchedEye:
         """Which tree each object is, None where that cannot be said or it is far away."""
         rotation = rotation_from_rpy(truth.roll, truth.pitch, truth.yaw)
         pixels = self._camera.project((self._feet - (truth.x, truth.y, 0.0)) @ rotation)
-        away = np.hypot(self._feet[:, 0] - truth.x, self._feet[:, 1] - truth.y)
-        pixels[away > REACH_M] = np.nan
-        return [_nearest(pixels, ((o.x1 + o.x2) / 2, o.y2)) for o in objects]
+        near = np.hypot(self._feet[:, 0] - truth.x, self._feet[:, 1] - truth.y) <= REACH_M
+        return [known_tree(pixels, near, ((o.x1 + o.x2) / 2, o.y2)) for o in objects]
 
     def _tree_at(self, truth: SimTruth, place: tuple[float, float] | None) -> int | None:
         """The tree at a place in `base_link`, -1 if there is none."""
@@ -157,6 +156,16 @@ class WatchedEye:
 
 def _key(box: DetectedObject) -> tuple[float, ...]:
     return box.x1, box.y1, box.x2, box.y2
+
+
+def known_tree(pixels: Floats, near: NDArray[np.bool_], foot: tuple[float, float]) -> int | None:
+    """Which tree an object is whose foot is seen there, by the feet of all trees, (N, 2) pixels.
+
+    None where that cannot be said, or where the tree is none of the `near` ones (N,): a box about a tree further away
+    is not one about the near tree before it.
+    """
+    tree = _nearest(pixels, foot)
+    return tree if tree is not None and near[tree] else None
 
 
 def _nearest(pixels: Floats, foot: tuple[float, float]) -> int | None:

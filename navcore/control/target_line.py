@@ -31,6 +31,7 @@ class TargetLine:
         lateral_error: of the robot from the line, m, positive when the robot is left of it.
         heading_error: of the robot from the line's direction, rad, positive when it points too far left.
         remaining: metres from that point to the line's end; None if the line has no known end.
+        found_anew: the line moves sideways as it is found anew with every look, which is no drift of the robot.
     """
 
     source: str
@@ -41,6 +42,7 @@ class TargetLine:
     lateral_error: float
     heading_error: float
     remaining: float | None = None
+    found_anew: bool = False
 
     @property
     def deadline_ns(self) -> int:
@@ -54,7 +56,7 @@ class TargetLine:
 
 def target_from_path(
     path: Polyline, T_map_driving: SE2, *, source: str, stamp_ns: int, max_age_ns: int, near_s: float | None = None,
-    ahead: float = AHEAD,
+    ahead: float = AHEAD, found_anew: bool = False,
 ) -> TargetLine:  # fmt: skip
     """Target of a path in `map` for a robot at `T_map_driving`; `near_s` as in `Polyline.project`.
 
@@ -72,6 +74,7 @@ def target_from_path(
     return TargetLine(
         source=source, stamp_ns=stamp_ns, max_age_ns=max_age_ns, path=seen, s=s, lateral_error=hit.lateral,
         heading_error=wrap(T_map_driving.yaw - hit.heading), remaining=path.length - hit.s - hit.beyond,
+        found_anew=found_anew,
     )  # fmt: skip
 
 

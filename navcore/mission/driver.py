@@ -142,6 +142,7 @@ class Driver:
             max_age_ns=deadline_ns - now_ns,
             near_s=pilot.place.s,
             ahead=self.tracking.sight,
+            found_anew=pilot.by_scan,
         )
 
     def _deadline_ns(self, pilot: Pilot, senses: Senses) -> int:

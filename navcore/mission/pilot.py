@@ -85,6 +85,12 @@ class Pilot:
         return self.row.streak >= mode.streak and age_s is not None and age_s <= mode.lost_s
 
     @property
+    def by_scan(self) -> bool:
+        """The line is that through scanned plants, and bends as they stand."""
+        seen = self.row.agreeing
+        return self.mode in ON_CAMERA and seen is not None and seen.source is not RowSource.CAMERA
+
+    @property
     def before_seen_row(self) -> bool:
         """Between the turn on the headland and the entrance of the next row, which is seen."""
         return self.mode is NavMode.HEADLAND and self.segment.kind is SegmentKind.ENTRY and self.sees_row

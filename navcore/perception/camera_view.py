@@ -60,18 +60,11 @@ def scanned_plants(
     """Each with its side of the row, (M,) or none, and the object of the picture that it is: `found` (N,) tells."""
     on = sides if len(sides) else np.zeros(len(plants), dtype=np.int64)
     objects = {int(plant): i for i, plant in enumerate(found) if plant >= 0}
-    rows = zip(plants.number, plants.xy, plants.diameter, plants.sureness, on, strict=True)
+    columns = plants.number, plants.xy[:, 0], plants.xy[:, 1], plants.diameter, plants.sureness, on
+    rows = zip(*(column.tolist() for column in columns), strict=True)
     return tuple(
-        ScannedPlant(
-            number=int(n),
-            x=float(x),
-            y=float(y),
-            diameter=float(d),
-            sureness=float(p),
-            side=int(s),
-            object=objects.get(k),
-        )
-        for k, (n, (x, y), d, p, s) in enumerate(rows)
+        ScannedPlant(number=n, x=x, y=y, diameter=d, sureness=p, side=side, object=objects.get(k))
+        for k, (n, x, y, d, p, side) in enumerate(rows)
     )
 
 

@@ -102,8 +102,8 @@ class RowEye:
         pixels = mount.project(ends)
         inside = np.all((pixels >= 0.0) & (pixels < (mount.width_px, mount.height_px)), axis=1)
         return replace(
-            view, scan=tuple((u, v) for u, v in np.round(pixels[inside], 1).tolist()),
-            ends=tuple((x, y) for x, y in np.round(ends[:, :2], 2).tolist()),
+            view, scan=tuple(map(tuple, np.round(pixels[inside], 1).tolist())),
+            ends=tuple(map(tuple, np.round(ends[:, :2], 2).tolist())),
         )  # fmt: skip
 
     def _tell(self, view: CameraView, plants: ScannedPlants | None, camera: PinholeCamera) -> None:

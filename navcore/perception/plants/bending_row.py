@@ -3,7 +3,8 @@
 Young trees stand 10 cm about their line, and a row is as straight as the fence that it follows. A straight fit cuts
 the bends; a short one trusts too few trees. Here the middle is a straight line plus a smooth deviation, a Gaussian
 process (Rasmussen and Williams, "Gaussian Processes for Machine Learning", 2006, 2.3 and 2.7), for a few sizes of
-bend and of planting scatter at once, each weighted by how well it explains the plants (ibid., 5.4.1).
+bend and of planting scatter at once, each weighted by how well it explains the plants (ibid., 5.4.1). The next lines
+on either side bend alike, and tell the bend, though not where the middle lies.
 """
 
 from __future__ import annotations
@@ -28,6 +29,8 @@ class BendingRowParams:
         reach: over which a bend is alike, > 0.
         beside: plants further than that from a line of the corridor are none of it.
         offset_std, heading_std, width_std: 1-sigma of the corridor that it starts from, m, rad, m.
+        next_std, next_turn_std: 1-sigma of where the next line on either side stands about one width further out, m,
+            and of how far it turns from the row, rad.
         ahead: the told direction is to the middle so far ahead, > 0.
         fewest: plants on each side; with fewer there is nothing to add to the corridor.
     """
@@ -39,6 +42,8 @@ class BendingRowParams:
     offset_std: float = 0.5
     heading_std: float = 0.06
     width_std: float = 0.3
+    next_std: float = 0.15
+    next_turn_std: float = 0.01
     ahead: float = 1.5
     fewest: int = 2
 
@@ -59,9 +64,11 @@ class BendingRow:
         p = self._params = params
         models = np.array(list(product(p.scatters, p.bends)))
         self._scatter, self._bend = models[:, 0, None, None] ** 2, models[:, 1, None, None] ** 2
-        self._prior = np.diag((p.offset_std**2, p.heading_std**2, p.width_std**2))
+        beyond = p.next_std**2, p.next_turn_std**2
+        self._prior = np.diag((p.offset_std**2, p.heading_std**2, p.width_std**2, *beyond, *beyond))
         # Asked for: the middle here, the middle ahead, the width.
-        self._asked = np.array(((1.0, 0.0, 0.0), (1.0, p.ahead, 0.0), (0.0, 0.0, 1.0)))
+        self._asked = np.zeros((3, 7))
+        self._asked[:, :3] = (1.0, 0.0, 0.0), (1.0, p.ahead, 0.0), (0.0, 0.0, 1.0)
         self._asked_x, self._is_middle = np.array((0.0, p.ahead, 0.0)), np.array((1.0, 1.0, 0.0))
 
     def fit(self, offset: float, heading: float, width: float, plants: Floats) -> Middle | None:
@@ -70,10 +77,10 @@ class BendingRow:
         """
         c, s = math.cos(heading), math.sin(heading)
         along, left = (plants[:, :2] @ np.array(((c, -s), (s, c)))).T
-        side = np.where(left > offset, 1.0, -1.0)
+        side = _line((left - offset) / width)
         off = left - offset - side * width / 2.0
         on = np.abs(off) <= self._params.beside
-        if min(np.count_nonzero(on & (side > 0.0)), np.count_nonzero(on & (side < 0.0))) < self._params.fewest:
+        if min(np.count_nonzero(on & (side == 1.0)), np.count_nonzero(on & (side == -1.0))) < self._params.fewest:
             return None
         noise = plants[on, 2] ** 2, 1.0 / np.maximum(plants[on, 3], 0.1)
         mean, covariance = self._averaged(along[on], side[on], off[on], *noise)
@@ -83,7 +90,8 @@ class BendingRow:
         self, x: Floats, side: Floats, off: Floats, variance: Floats, doubt: Floats
     ) -> tuple[Floats, Floats]:  # fmt: skip
         """What is asked for, (3,) about the corridor, over all models, and its covariance."""
-        basis = np.column_stack((np.ones(len(x)), x, side / 2.0))
+        left, right = side > 1.0, side < -1.0
+        basis = np.column_stack((np.ones(len(x)), x, side / 2.0, left, left * x, right, right * x))
         smooth, to_asked = self._smooth(x, x), self._smooth(self._asked_x, x) * self._is_middle[:, None]
         line = basis @ self._prior @ basis.T
         seen = line + self._bend * smooth + np.eye(len(x)) * doubt * (self._scatter + variance)
@@ -115,3 +123,8 @@ class BendingRow:
             (offset + float(mean[0])) * math.cos(turn), heading + turn, width + float(mean[2]),
             to_line @ covariance @ to_line.T,
         )  # fmt: skip
+
+
+def _line(widths: Floats) -> Floats:
+    """Which line is nearest to places so many widths left of the middle: +1 and -1 of the row, +3 and -3 the next."""
+    return np.asarray(np.copysign(np.where(np.abs(widths) < 1.0, 1.0, 3.0), widths))

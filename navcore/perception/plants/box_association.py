@@ -31,8 +31,8 @@ class BoxAssociationParams:
         mount_deg: of the bearing between the two sensors, deg.
         lean: by so much a trunk stands aside at the scan's height of where its foot is, m.
         pitch_deg: of the camera's pitch about what is told; range_share: of a foot's distance beside that.
-        wider: logarithm of how much wider a box is than the plant's diameter: trunks sway and fork, and a scan misses
-            the edges of thin ones far away. size: 1-sigma of it.
+        wider, edge_px: a box is so many times as wide as the plant's diameter, for trunks sway and fork, and by so
+            much more at its edges, pixels at 640 px image width. size: 1-sigma of the logarithm of its width.
         reach: plants further away than that have no box, m.
         sureness: at most so much counts against a plant that is hardly a trunk, in the measure of `alone`.
         alone: half the squared distance beyond which an object has no plant.
@@ -46,14 +46,15 @@ class BoxAssociationParams:
     lean: float = 0.03
     pitch_deg: float = 0.7
     range_share: float = 0.06
-    wider: float = 0.65
-    size: float = 0.35
+    wider: float = 1.65
+    edge_px: float = 4.5
+    size: float = 0.3
     reach: float = 12.0
     sureness: float = 3.0
     alone: float = 6.0
     fewest: int = 4
     known_pitch: float = 0.4
-    clear: float = 1.5
+    clear: float = 0.8
 
 
 def associate(
@@ -119,9 +120,9 @@ def _by_middle(
     across_std = np.sqrt(
         (p.box_px * scale) ** 2 + math.radians(p.mount_deg) ** 2 + (plants.std**2 + p.lean**2) / ahead**2
     )  # fmt: skip
-    told_size = np.maximum(plants.diameter, 0.01) / ahead
-    size = np.log(((boxes[:, 2] - boxes[:, 0]) / camera.fx)[:, None] / told_size[None])
-    total = (across / across_std[None]) ** 2 + ((size - p.wider) / p.size) ** 2
+    as_wide = p.wider * np.maximum(plants.diameter, 0.01) / ahead + p.edge_px * scale
+    size = np.log(((boxes[:, 2] - boxes[:, 0]) / camera.fx)[:, None] / as_wide[None])
+    total = (across / across_std[None]) ** 2 + (size / p.size) ** 2
     doubt = np.minimum(-np.log(np.maximum(plants.sureness, 1e-6)), p.sureness)
     out_of_reach = (x < 0.3) | (np.hypot(x, y) > p.reach)
     return np.where(out_of_reach[None], 2.0 * p.alone + 1.0, 0.5 * total + doubt[None])
@@ -167,11 +168,13 @@ def slopes(boxes: Floats, camera: PinholeCamera, pitch: float) -> Floats:
 def should_be_seen(plants: ScannedPlants, camera: PinholeCamera, reach: float = 6.0) -> NDArray[np.bool_]:
     """(M,) which plants stand well inside the picture, with nothing nearer in line, no further than `reach` m."""
     x, y = (plants.xy - (camera.x, camera.y)).T
-    ahead = np.maximum(x, 0.3)
-    u = camera.cx - camera.fx * y / ahead
+    seen = np.zeros(len(x), dtype=np.bool_)
+    near = np.flatnonzero((x > 0.3) & (np.hypot(x, y) < reach))  # nothing further away hides them
+    x, y = x[near], y[near]
+    u = camera.cx - camera.fx * y / x
     margin = 0.04 * camera.width_px
-    inside = (x > 1.0) & (np.hypot(x, y) < reach) & (u > margin) & (u < camera.width_px - margin)
-    half = 0.5 * camera.fx * plants.diameter / ahead + 4.0
+    inside = (x > 1.0) & (u > margin) & (u < camera.width_px - margin)
+    half = 0.5 * camera.fx * plants.diameter[near] / x + 4.0
     overlaps = np.abs(u[:, None] - u[None]) < half[:, None] + half[None]
-    nearer = x[None] < x[:, None] - 0.1
-    return np.asarray(inside & ~np.any(overlaps & nearer & (x[None] > 0.3), axis=1))
+    seen[near] = inside & ~np.any(overlaps & (x[None] < x[:, None] - 0.1), axis=1)
+    return seen

@@ -31,10 +31,10 @@ class OdometryTrail:
         """The pose at that moment, between the known ones or shortly beyond the newest; None where nobody knows."""
         if len(self._poses) < 2 or stamp_ns > self._poses[-1][0] + BEYOND_NS or stamp_ns < self._poses[0][0]:
             return None
-        for (t0, a), (t1, b) in pairwise(self._poses):
-            if stamp_ns <= t1:
-                return _between(a, b, (stamp_ns - t0) / (t1 - t0))
-        (t0, a), (t1, b) = self._poses[-2], self._poses[-1]
+        (t0, a), (t1, b) = next(
+            ((earlier, later) for later, earlier in pairwise(reversed(self._poses)) if stamp_ns > earlier[0]),
+            (self._poses[0], self._poses[1]),
+        )
         return _between(a, b, (stamp_ns - t0) / (t1 - t0))
 
 

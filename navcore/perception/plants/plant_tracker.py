@@ -14,8 +14,9 @@ from numpy.typing import NDArray
 
 from navcore.geometry.lidar_mount import LidarMount
 from navcore.geometry.se2 import SE2
+from navcore.perception.plants.alignment_kernels import mutual_nearest
 from navcore.perception.plants.plant_evidence import PlantEvidence, PlantEvidenceParams
-from navcore.perception.plants.scan_alignment import ScanAlignmentParams, align, matches
+from navcore.perception.plants.scan_alignment import ScanAlignmentParams, align
 from navcore.perception.plants.scanned_plants import ScannedPlants, no_plants
 from navcore.perception.scan.scan_clusters import ScanTrunks
 
@@ -101,7 +102,7 @@ class PlantTracker:
         return np.column_stack((c * x - s * y, s * x + c * y))
 
     def _take_in(self, xy: Floats, std: Floats, trunks: ScanTrunks) -> None:
-        mine, theirs = matches(xy, self._plants.xy, self._params.gate)
+        mine, theirs = mutual_nearest(xy, self._plants.xy, self._params.gate)
         self._since_hit += 1
         self._since_hit[theirs] = 0
         self._blend(xy[mine], std[mine], theirs)

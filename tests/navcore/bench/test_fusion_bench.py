@@ -12,7 +12,7 @@ from navcore.bench.fusion_figures import drive_figures, tracking
 from navcore.bench.mission_cases import EyeKind
 from navcore.bench.segment_cases import Chain, SegmentCase, SegmentCaseParams, segment_cases
 from navcore.bench.segment_drive import STATIONS, SegmentResult
-from navcore.bench.tree_matches import Tally
+from navcore.bench.tree_matches import Tally, known_tree
 from navcore.sim.camera_light import LightName
 from navcore.sim.young_orchard import Segment
 
@@ -54,6 +54,14 @@ def test_a_tree_counts_as_placed_once_it_was_in_three_pictures() -> None:
     assert (tally.matches().trees, tally.matches().found, tally.matches().wrong) == (1, 0, 1)
     tally.add(7, 7)
     assert (tally.matches().found, tally.matches().right) == (1, 3)
+
+
+def test_a_box_about_a_tree_too_far_away_to_count_is_not_taken_for_the_near_one_before_it() -> None:
+    near_foot, far_foot = (106.0, 206.0), (100.0, 190.0)
+    feet, near = np.array((near_foot, (300.0, 250.0), far_foot)), np.array((True, True, False))
+    assert known_tree(feet, near, (300.0, 252.0)) == 1
+    assert known_tree(feet, near, (101.0, 198.0)) is None
+    assert known_tree(feet[:2], near[:2], (101.0, 198.0)) == 0
 
 
 def test_ours_is_judged_and_stands_beside_the_published_one() -> None:

@@ -85,6 +85,18 @@ def test_far_from_the_line_and_slower_than_walking_no_drift_is_learnt() -> None:
         assert drift.angle == 0.0
 
 
+def test_from_a_line_that_is_found_anew_no_drift_is_learnt_and_what_was_known_fades() -> None:
+    """It moves aside where the row bends, and the robot does not drift for that."""
+    drift = SideDrift()
+    drift.angle = 0.03
+    for k in range(500):
+        target = target_from_path(
+            LINE, SE2(0.02 * k, 0.0005 * k, 0.0), source="row", stamp_ns=0, max_age_ns=1, found_anew=True
+        )
+        drift.update(k * TICK_NS, target, Motion(v=1.0, omega=0.0))
+    assert 0.0 < drift.angle < 0.001  # rad, after 10 m
+
+
 def test_no_drift_beyond_the_bound_is_believed() -> None:
     drift = SideDrift(SideDriftParams(band=10.0))
     for k in range(2000):

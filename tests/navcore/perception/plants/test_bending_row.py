@@ -70,6 +70,26 @@ def test_a_row_that_shifts_sideways_is_followed_where_a_straight_line_cuts_the_c
     assert np.abs(followed - 0.175).mean() < 0.7 * np.abs(straight - 0.175).mean()
 
 
+def test_the_next_lines_on_either_side_tell_how_the_row_bends() -> None:
+    """Each somewhere near one width further out, and a little askew."""
+    bend = np.interp(AHEAD, (-1.5, 1.5), (-0.175, 0.175))
+    alone, together = [], []
+    for seed in range(60):
+        seen, beyond = plants(bend, 0.10, seed), plants(bend, 0.10, 1000 + seed)
+        out = np.sign(beyond[:, 1]) * (WIDTH + 0.08) + 0.005 * beyond[:, 0]
+        more = np.vstack((seen, beyond + np.column_stack((0.0 * out, out, 0.0 * out, 0.0 * out))))
+        alone.append(fitted(_seen_from(seen, 1.5)).offset)
+        together.append(fitted(_seen_from(more, 1.5)).offset)
+    off, less = (np.abs(np.array(found) - 0.175).mean() for found in (alone, together))
+    assert less < 0.85 * off
+
+
+def test_a_next_line_that_stands_further_out_moves_the_middle_by_less_than_a_centimetre() -> None:
+    seen = plants(0.0 * AHEAD, 0.05)
+    beyond = plants(0.0 * AHEAD + WIDTH + 0.2, 0.05, 7)[: len(AHEAD)]
+    assert fitted(np.vstack((seen, beyond))).offset == pytest.approx(fitted(seen).offset, abs=0.01)  # m
+
+
 def _seen_from(seen: Floats, along: float) -> Floats:
     return seen - (along, 0.0, 0.0, 0.0)
 
