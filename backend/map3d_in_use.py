@@ -6,9 +6,8 @@ from pathlib import Path
 
 from backend.disk import write_durably
 from backend.errors import ConflictError, NotFoundError
-from backend.map3d_store import NONE, Map3dStore
+from backend.map3d_store import NDT, NONE, Map3dStore
 
-MAP = "map.ndt"
 NOT_ON_EARTH = "This map has no place on the Earth, so the robot cannot drive by it. Map a run that had RTK."
 
 
@@ -32,7 +31,7 @@ class Map3dInUse:
             raise NotFoundError(NONE)
         if not made.georeferenced:
             raise ConflictError(NOT_ON_EARTH)
-        write_durably(self._map(site_id), self._store.file(site_id, run_id, MAP).read_bytes())
+        write_durably(self._map(site_id), self._store.file(site_id, run_id, NDT).read_bytes())
         write_durably(self._name(site_id), run_id.encode())
 
     def stop(self, site_id: str) -> None:

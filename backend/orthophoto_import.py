@@ -33,6 +33,7 @@ def main() -> int:
     """Import one picture. Exit status 0 whenever the last line says how it went."""
     arguments = _arguments()
     limit_resources(arguments.memory_bytes, arguments.cpu_s)
+    stand_back()
     leave_network()
     try:
         facts = import_picture(
@@ -61,7 +62,6 @@ def limit_resources(memory_bytes: int, cpu_s: int) -> None:
     resource.setrlimit(resource.RLIMIT_AS, (memory_bytes, memory_bytes))
     resource.setrlimit(resource.RLIMIT_CPU, (cpu_s, cpu_s))
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-    stand_back()
 
 
 def leave_network() -> None:
