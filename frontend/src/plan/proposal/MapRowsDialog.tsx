@@ -24,11 +24,11 @@ export function MapRowsDialog({ siteId, onTake, onClose }: Props) {
         <FileButton accept=".laz,.las,.pcd,.ply" onChange={(file) => file && onTake(file)}>
           {(props) => (
             <Button {...props} size="lg" variant="default" fullWidth justify="flex-start" leftSection={<IconFileImport size={22} />}>
-              From a file (LAZ, LAS, PCD, PLY) …
+              From a file …
             </Button>
           )}
         </FileButton>
-        <p className={css.quiet}>What is found is proposed first. Nothing is drawn before you accept it.</p>
+        <p className={css.quiet}>A file may be LAZ, LAS, PCD or PLY. What is found is proposed first: nothing is drawn before you accept it.</p>
       </div>
     </Modal>
   );
