@@ -1,7 +1,8 @@
 """The process that draws a 3D map from above: `python -m backend.map3d_drawing FOLDER ...`, for a map's folder.
 
-It leaves `above.png`, and `above.json` last of all. A process of its own, because a cloud keeps Python busy for
-seconds and the live feed must go on. Says in one sentence on stdout what is wrong with a map, with exit status 3.
+It leaves `above.png`, the ground's heights and, last of all, `above.json`. A process of its own, because a cloud
+keeps Python busy for seconds and the live feed must go on. Says in one sentence on stdout what is wrong with a map,
+with exit status 3.
 """
 
 from __future__ import annotations
@@ -17,11 +18,13 @@ from numpy.typing import NDArray
 
 from backend.disk import write_durably
 from backend.height_colours import height_colours
+from backend.map3d_ground import GROUND, ground_bytes
 from backend.map3d_store import CLOUD, NDT
 from backend.orthophoto_import import leave_network, limit_resources
 from backend.picture_store import encode_png
 from navcore.errors import InputError, NdtMapError
 from navcore.mapping.surface_model import SurfaceModel, surface_model
+from navcore.mapping.trellis.ground_model import GroundModel
 from navcore.maps.cloud_files.cloud_file import read_cloud
 from navcore.maps.ndt.ndt_file import ndt_datum_of
 from navcore.promptness import give_way
@@ -59,11 +62,14 @@ def draw() -> None:
     datum = ndt_datum_of(Path(NDT).read_bytes(), NDT)
     if datum is None:
         raise NdtMapError(NO_PLACE)
-    surface = surface_model(read_cloud(Path(CLOUD)).cloud.points, datum)
+    points = read_cloud(Path(CLOUD)).cloud.points
+    ground = GroundModel.of([points])
+    surface = surface_model(points, ground, datum)
     height_px, width_px = surface.heights.shape
     facts = {"bounds_3857": surface.bounds, "pixel": surface.pixel, "width_px": width_px, "height_px": height_px}
     Path(FACTS).unlink(missing_ok=True)
     write_durably(Path(PICTURE), encode_png(coloured(surface)))
+    write_durably(Path(GROUND), ground_bytes(ground))
     write_durably(Path(FACTS), json.dumps(facts, allow_nan=False).encode())
 
 

@@ -13,9 +13,11 @@ import numpy as np
 from backend.errors import ConflictError, NotFoundError, StationError
 from backend.height_colours import HIGHEST, height_colours
 from backend.map3d_drawing import FACTS, PICTURE, UNREADABLE
+from backend.map3d_ground import GROUND, read_ground
 from backend.map3d_store import NONE, NOT_ON_EARTH, REPORT, Map3dStore, damaged
 from backend.schemas import HeightColour, Map3dPicture
 from backend.settings import Settings
+from navcore.mapping.trellis.ground_model import GroundModel
 
 LONGEST_S = 600
 TOO_LONG = "it needs too much time to be drawn."
@@ -54,6 +56,11 @@ class Map3dPictures:
         self.get(site_id, run_id)
         return self._store.folder(site_id, run_id) / PICTURE
 
+    def ground(self, site_id: str, run_id: str) -> GroundModel:
+        """The ground under it, in `map`. Raises as `get` does."""
+        self.get(site_id, run_id)
+        return read_ground(self._store.folder(site_id, run_id) / GROUND)
+
     def _draw(self, folder: Path) -> None:
         command = [
             sys.executable, "-m", "backend.map3d_drawing", f"--memory-bytes={self._settings.map_memory_bytes}",
@@ -75,9 +82,10 @@ class Map3dPictures:
 
 
 def is_fresh(folder: Path) -> bool:
-    """Whether the map is still the one that was drawn."""
-    facts = folder / FACTS
-    return facts.is_file() and facts.stat().st_mtime_ns >= (folder / REPORT).stat().st_mtime_ns
+    """Whether all of the drawing is there, and of the map as it is now."""
+    made_ns = (folder / REPORT).stat().st_mtime_ns
+    drawn = [folder / name for name in (PICTURE, GROUND, FACTS)]
+    return all(file.is_file() and file.stat().st_mtime_ns >= made_ns for file in drawn)
 
 
 def legend() -> list[HeightColour]:

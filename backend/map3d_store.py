@@ -65,6 +65,15 @@ class Map3dStore:
             raise ConflictError(NOT_ON_EARTH)
         return datum
 
+    def placed(self, site_id: str, datum: Datum, preferred: str | None) -> str | None:
+        """Run of the site's map that lies in the frame of `datum`: of the preferred one if it does, else the newest.
+
+        None where there is no such map. Raises CloudError for a damaged one.
+        """
+        runs = [made.run_id for made in self.all(site_id) if made.georeferenced]
+        ordered = sorted(runs, key=lambda run_id: run_id != preferred)
+        return next((run_id for run_id in ordered if self.datum(site_id, run_id) == datum), None)
+
     def begun(self, site_id: str, run_id: str) -> bool:
         """Whether keyframes of an interrupted mapping are there."""
         return (self.folder(site_id, run_id) / KEYFRAMES).is_dir()

@@ -54,7 +54,7 @@ def find_rows_of_run(station: TheStation, site_id: PathId, run_id: PathId) -> Jo
     site = station.sites.get(site_id).site
     if station.maps3d.datum(site_id, run_id) != site.datum:
         raise ConflictError(MOVED)
-    name = f"the 3D map of {station.runs.get(run_id).mission_name}"
+    name = f"The 3D map of “{station.runs.get(run_id).mission_name}”"
     source = lent(station.maps3d.file(site_id, run_id, CLOUD), station.settings)
     kind = rows_in_a_map(name, site.datum)
     return JobStarted(job_id=station.jobs.start(source, station.row_proposals.taker(site_id, name), kind))

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 from pyproj import Transformer
 
 from navcore.geometry.geodesy import EnuFrame
-from navcore.mapping.trellis.ground_model import GroundModel, GroundParams
+from navcore.mapping.trellis.ground_model import GroundModel
 from navcore.maps.site_map import Datum
 
 Floats = NDArray[np.float64]
@@ -24,13 +24,11 @@ class SurfaceParams:
         pixel: edge of a pixel on the ground, m, above 0. most: pixels along either side, at least 1; a larger farm
             gets larger pixels.
         highest: what stands higher above the ground is a bird or a late echo, m.
-        ground: how the ground is found.
     """
 
     pixel: float = 0.1
     most: int = 4096
     highest: float = 25.0
-    ground: GroundParams = field(default_factory=GroundParams)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -49,12 +47,11 @@ class SurfaceModel:
     pixel: float
 
 
-def surface_model(points: Floats, datum: Datum, params: SurfaceParams = SurfaceParams()) -> SurfaceModel:
-    """Of points (N, 3) in the `map` frame of `datum`, m, each carried over by itself.
-
-    Raises CloudError where the points show no ground or cannot be one farm.
-    """
-    above = points[:, 2] - GroundModel.of([points], params.ground).height(points[:, :2])
+def surface_model(
+    points: Floats, ground: GroundModel, datum: Datum, params: SurfaceParams = SurfaceParams()
+) -> SurfaceModel:
+    """Of points (N, 3) in the `map` frame of `datum`, m, above their own ground; each is carried over by itself."""
+    above = points[:, 2] - ground.height(points[:, :2])
     kept = above <= params.highest
     places, above = _on_the_screen(points[kept], datum), above[kept]
     stretch = 1.0 / math.cos(math.radians(datum.lat_deg))

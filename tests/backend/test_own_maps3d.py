@@ -16,7 +16,8 @@ from pyproj import Transformer
 from backend.station import Station
 from navcore.geometry.geodesy import EnuFrame
 from navcore.maps.mission import Mission
-from navcore.maps.site_map import Datum, SiteMap
+from navcore.maps.site_map import Datum, Lane, SiteMap
+from navcore.maps.vector_map.osm_data import read_osm
 from tests.backend.made_maps import BLOCK, cut, make_run, write_made_map
 from tests.backend.played_robot import until
 from tests.backend.starting import as_json
@@ -140,7 +141,7 @@ def test_rows_are_found_in_the_farms_own_map_which_stays(
     assert job["state"] == "done", job
     proposal = client.get(f"/api/sites/{site_id}/found-rows").json()
     assert len(proposal["rows"]) == 2
-    assert proposal["file_name"] == "the 3D map of First row"
+    assert proposal["file_name"] == "The 3D map of “First row”"
     assert {file.name: file.read_bytes() for file in folder.iterdir()} == before
     assert list(station.settings.upload_dir.iterdir()) == []
 
@@ -152,7 +153,7 @@ def test_a_cut_off_cloud_of_the_farms_own_becomes_a_sentence_and_no_proposal(
     cut(folder / "cloud.laz")
     job = found(client, site_id)
     assert job["state"] == "failed"
-    assert "the 3D map of First row" in job["message"]
+    assert "The 3D map of “First row”" in job["message"]
     assert str(station.settings.data_dir) not in job["message"]
     assert client.get(f"/api/sites/{site_id}/found-rows").json() is None
 
@@ -170,3 +171,26 @@ def test_a_map_that_is_not_there_is_not_found(client: TestClient, site_id: str) 
     for run_id in (RUN, "f" * 16):
         assert client.get(f"/api/sites/{site_id}/maps3d/{run_id}/picture").status_code == 404
         assert client.post(f"/api/sites/{site_id}/found-rows/of-run/{run_id}").status_code == 404
+
+
+def test_lanelets_go_out_with_the_heights_of_the_ground_that_a_3d_map_knows(
+    client: TestClient, station: Station, site: SiteMap, site_id: str
+) -> None:
+    url = f"/api/sites/{site_id}"
+    drawn = replace(site, rows=(), lanes=(Lane(id="road", points=((-200.0, 0.0), (0.0, 3.0), (18.0, 3.0))),))
+    stored = client.get(url).json()
+    client.put(url, json={"version": stored["version"], "site": as_json(drawn)})
+    assert not _heights(client.get(f"{url}/osm").content)
+    folder = made(station, site_id, site.datum)
+    heights = _heights(client.get(f"{url}/osm").content)
+    assert heights[0.0] == pytest.approx(700.0, abs=0.05)  # m
+    assert heights[18.0] == pytest.approx(700.0 + 18.0 * BLOCK.slope, abs=0.05)  # m
+    assert -200.0 not in heights
+    cut(folder / "map.ndt")
+    assert not _heights(client.get(f"{url}/osm").content)
+
+
+def _heights(osm: bytes) -> dict[float, float]:
+    """Ellipsoidal height, m, of the lane's own points by x."""
+    nodes = [node.tags for node in read_osm(osm).nodes.values() if "local_x" in node.tags and "ele" in node.tags]
+    return {float(tags["local_x"]): float(tags["ele"]) for tags in nodes if tags["local_y"] in ("0.0", "3.0")}
