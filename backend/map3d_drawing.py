@@ -16,12 +16,12 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from backend.confinement import leave_network, limit_resources
 from backend.disk import write_durably
 from backend.height_colours import height_colours
-from backend.map3d_ground import GROUND, ground_bytes
-from backend.map3d_store import CLOUD, NDT
-from backend.orthophoto_import import leave_network, limit_resources
-from backend.picture_store import encode_png
+from backend.map3d_files import CLOUD, FACTS, GROUND, NDT, PICTURE
+from backend.map3d_ground import ground_bytes
+from backend.png import encode_png
 from navcore.errors import InputError, NdtMapError
 from navcore.mapping.surface_model import SurfaceModel, surface_model
 from navcore.mapping.trellis.ground_model import GroundModel
@@ -31,7 +31,6 @@ from navcore.promptness import give_way
 
 UNREADABLE = 3
 NICENESS = 10  # behind the robot, but somebody waits for it
-PICTURE, FACTS = "above.png", "above.json"
 # What lies lower is ground, m: it lets the orthophoto through.
 LOW = 0.2
 GROUND_ALPHA, ALPHA = 90, 235

@@ -10,8 +10,6 @@ import numpy as np
 
 from navcore.mapping.trellis.ground_model import GroundModel
 
-GROUND = "ground.npz"
-
 
 def ground_bytes(ground: GroundModel) -> bytes:
     """The file of a ground."""

@@ -6,7 +6,8 @@ from pathlib import Path
 
 from backend.disk import write_durably
 from backend.errors import ConflictError, NotFoundError
-from backend.map3d_store import NDT, NONE, Map3dStore
+from backend.map3d_files import NDT
+from backend.map3d_store import NONE, Map3dStore
 
 NOT_ON_EARTH = "This map has no place on the Earth, so the robot cannot drive by it. Map a run that had RTK."
 

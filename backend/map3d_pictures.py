@@ -12,9 +12,10 @@ import numpy as np
 
 from backend.errors import ConflictError, NotFoundError, StationError
 from backend.height_colours import HIGHEST, height_colours
-from backend.map3d_drawing import FACTS, PICTURE, UNREADABLE
-from backend.map3d_ground import GROUND, read_ground
-from backend.map3d_store import NONE, NOT_ON_EARTH, REPORT, Map3dStore, damaged
+from backend.map3d_drawing import UNREADABLE
+from backend.map3d_files import FACTS, GROUND, PICTURE, REPORT
+from backend.map3d_ground import read_ground
+from backend.map3d_store import NONE, NOT_ON_EARTH, Map3dStore, damaged
 from backend.schemas import HeightColour, Map3dPicture
 from backend.settings import Settings
 from navcore.mapping.trellis.ground_model import GroundModel

@@ -8,16 +8,13 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 from backend.errors import ConflictError, NotFoundError
+from backend.map3d_files import FILES, KEYFRAMES, NDT, REPORT
 from backend.schemas import Map3dDocument, Map3dFile
 from navcore.errors import CloudError, NdtMapError
 from navcore.maps.ndt.ndt_file import ndt_datum_of
 from navcore.maps.site_map import Datum
 
 NONE = "There is no such 3D map any more. Load the page again."
-REPORT = "report.json"  # written last, so a folder with it holds a whole map
-KEYFRAMES = "keyframes"
-NDT, CLOUD = "map.ndt", "cloud.laz"
-FILES = (NDT, CLOUD, "cloud.pcd", REPORT)
 NOT_ON_EARTH = (
     "This map has no place on the Earth, so nobody knows where on the farm it lies. Map a run that had RTK."
 )

@@ -10,7 +10,8 @@ import json
 from dataclasses import replace
 from pathlib import Path
 
-from backend.orthophoto_import import leave_network, limit_resources, say, tell
+from backend.confinement import leave_network, limit_resources
+from backend.orthophoto_import import say, tell
 from navcore.errors import InputError
 from navcore.mapping.row_map.cloud_in_map import read_seen_cloud
 from navcore.mapping.row_map.map_rows import map_rows

@@ -13,7 +13,7 @@ from fastapi.concurrency import run_in_threadpool
 
 from backend.deps import ERRORS, PathId, TheLogin, TheStation
 from backend.errors import ConflictError
-from backend.map3d_store import CLOUD
+from backend.map3d_files import CLOUD
 from backend.row_proposals import rows_in_a_map
 from backend.schemas import JobStarted, RowProposal
 from backend.uploads import lent, receive

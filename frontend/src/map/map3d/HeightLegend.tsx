@@ -16,6 +16,7 @@ export function HeightLegend({ view: { maps, map, picture, choose } }: { view: M
           {maps.map((one) => (
             <Menu.Item key={one.run_id} leftSection={<IconCheck size={20} visibility={one === map ? "visible" : "hidden"} />} onClick={() => choose(one.run_id)}>
               {mapWords(one)}
+              {one.georeferenced ? "" : ", no place on the Earth"}
             </Menu.Item>
           ))}
         </MoreButton>

@@ -27,7 +27,7 @@ export function useMap3dView(siteId: string, hasPhoto: boolean): Map3dView {
   const maps = useQuery(maps3dQuery(siteId)).data ?? [];
   const inUse = useQuery(map3dInUseQuery(siteId)).data?.run_id ?? null;
   const map = shownMap(maps, chosen, inUse);
-  const shown = map !== null && (wanted ?? !hasPhoto);
+  const shown = map !== null && (wanted ?? (map.georeferenced && !hasPhoto));
   const drawn = useQuery(map3dPictureQuery(siteId, shown ? map : null));
   return { maps, shown, map, picture: (shown && drawn.data) || null, problems: problemsOf(map, drawn.error), show, choose };
 }
