@@ -5,10 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 from backend.errors import ConflictError, NotFoundError
+from backend.map3d_files import NDT
 from backend.map3d_store import NONE, Map3dStore
 from navcore.disk import write_durably
 
-MAP = "map.ndt"
 NOT_ON_EARTH = "This map has no place on the Earth, so the robot cannot drive by it. Map a run that had RTK."
 
 
@@ -32,7 +32,7 @@ class Map3dInUse:
             raise NotFoundError(NONE)
         if not made.georeferenced:
             raise ConflictError(NOT_ON_EARTH)
-        write_durably(self._map(site_id), self._store.file(site_id, run_id, MAP).read_bytes())
+        write_durably(self._map(site_id), self._store.file(site_id, run_id, NDT).read_bytes())
         write_durably(self._name(site_id), run_id.encode())
 
     def stop(self, site_id: str) -> None:

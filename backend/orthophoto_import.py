@@ -7,9 +7,7 @@ large.
 from __future__ import annotations
 
 import argparse
-import ctypes
 import json
-import resource
 import sys
 from dataclasses import asdict
 from pathlib import Path
@@ -17,13 +15,13 @@ from pathlib import Path
 from rasterio._err import CPLE_BaseError
 from rasterio.errors import RasterioError
 
+from backend.confinement import leave_network, limit_resources
 from backend.gdal_setup import gdal, open_geotiff
 from backend.orthophoto_check import CheckParams, PictureFacts, check_bands, check_size, locate
 from backend.orthophoto_copy import Tell, build_overviews, copy
 from navcore.errors import OrthophotoError
 from navcore.promptness import stand_back
 
-CLONE_NEWUSER, CLONE_NEWNET = 0x10000000, 0x40000000  # linux/sched.h
 DAMAGED = (RasterioError, CPLE_BaseError, UnicodeDecodeError)  # what GDAL raises of a file that contradicts itself
 NOT_READABLE = "This file cannot be read as a GeoTIFF. Export the orthophoto again as a GeoTIFF, not as a photo."
 BROKEN = "This GeoTIFF is damaged: its pixels cannot be read to the end. Copy or export it again."
@@ -33,6 +31,7 @@ def main() -> int:
     """Import one picture. Exit status 0 whenever the last line says how it went."""
     arguments = _arguments()
     limit_resources(arguments.memory_bytes, arguments.cpu_s)
+    stand_back()
     leave_network()
     try:
         facts = import_picture(
@@ -54,20 +53,6 @@ def _arguments() -> argparse.Namespace:
     for name in ("--decoded-bytes", "--memory-bytes", "--cpu-s"):
         parser.add_argument(name, type=int, required=True)
     return parser.parse_args()
-
-
-def limit_resources(memory_bytes: int, cpu_s: int) -> None:
-    """For the rest of this process's life."""
-    resource.setrlimit(resource.RLIMIT_AS, (memory_bytes, memory_bytes))
-    resource.setrlimit(resource.RLIMIT_CPU, (cpu_s, cpu_s))
-    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-    stand_back()
-
-
-def leave_network() -> None:
-    """Into a network namespace without interfaces, where the kernel lets us; else only the driver list protects."""
-    if sys.platform == "linux":
-        ctypes.CDLL(None, use_errno=True).unshare(CLONE_NEWUSER | CLONE_NEWNET)
 
 
 def say(line: dict[str, object]) -> None:

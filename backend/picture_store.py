@@ -9,18 +9,16 @@ from pathlib import Path
 from threading import Lock
 
 import numpy as np
-from cv2 import COLOR_RGBA2BGRA, cvtColor, imencode
-from numpy.typing import NDArray
 from rio_tiler.errors import TileOutsideBounds
 from rio_tiler.io import Reader
 
 from backend.errors import NotFoundError
 from backend.gdal_setup import gdal, open_geotiff
+from backend.png import encode_png
 from backend.schemas import OrthophotoInfo
 from navcore.disk import sync_folder, write_durably
 
 TILE_PX = 256
-Image = NDArray[np.uint8]
 
 
 class PictureStore:
@@ -77,10 +75,3 @@ class PictureStore:
                 return self._empty
         rgba = np.dstack([*image.data[:3], image.mask])
         return encode_png(np.ascontiguousarray(rgba, np.uint8))
-
-
-def encode_png(rgba: Image) -> bytes:
-    """Lossless, with alpha."""
-    done, data = imencode(".png", cvtColor(rgba, COLOR_RGBA2BGRA))
-    assert done
-    return bytes(data)

@@ -10,12 +10,14 @@ import json
 from dataclasses import replace
 from pathlib import Path
 
-from backend.orthophoto_import import leave_network, limit_resources, say, tell
+from backend.confinement import leave_network, limit_resources
+from backend.orthophoto_import import say, tell
 from navcore.errors import InputError
 from navcore.mapping.row_map.cloud_in_map import read_seen_cloud
 from navcore.mapping.row_map.map_rows import map_rows
 from navcore.mapping.row_map.row_map import RowMap
 from navcore.maps.site_map import Datum
+from navcore.promptness import stand_back
 from navcore.transport.codec import encode
 
 _STEPS = ("Finding the ground", "Looking for posts", "Finding rows and headlands")
@@ -26,13 +28,14 @@ def main() -> int:
     """Find the rows of one map. Exit status 0 whenever the last line says how it went."""
     arguments = _arguments()
     limit_resources(arguments.memory_bytes, arguments.cpu_s)
+    stand_back()
     leave_network()
     try:
         found = find_rows(arguments.map, arguments.name, Datum(
             lat_deg=arguments.lat_deg, lon_deg=arguments.lon_deg, height_m=arguments.height_m
         ))  # fmt: skip
     except InputError as error:
-        say({"error": str(error)})
+        say({"error": str(error).replace(str(arguments.map), arguments.name)})
     except MemoryError:
         say({"error": TOO_LARGE})
     else:

@@ -5,18 +5,18 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 from viser import SceneApi
 
+from backend.height_colours import height_colours
 from navcore.errors import InputError
 from navcore.maps.ndt.ndt_file import read_ndt_map
 
 Floats = NDArray[np.float32]
-HIGHEST = 4.0  # m above the ground, from where all is one colour
 MOST = 150_000  # a larger map is shown thinned, so that a browser can still turn it
 SIZE = 0.08  # m
+LOW = 5.0  # percent of the points lie lower than what counts as the ground
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -39,16 +39,8 @@ def read_cells(path: Path) -> Cells | None:
     corners = grid.centres() - grid.size / 2.0
     points = (corners + grid.sums[:, 1:4] / np.maximum(counts, 1.0))[counts[:, 0] > 0.0]
     points = points[:: max(1, -(-len(points) // MOST))]
-    return Cells(points.astype(np.float32), by_height(points[:, 2]))
-
-
-def by_height(z: NDArray[np.float64]) -> NDArray[np.uint8]:
-    """(N, 3) red, green, blue of heights (N,), m."""
-    if not len(z):
-        return np.zeros((0, 3), np.uint8)
-    share = np.clip((z - np.percentile(z, 5.0)) / HIGHEST, 0.0, 1.0)
-    levels = np.asarray(255.0 * share, dtype=np.uint8).reshape(-1, 1)
-    return np.asarray(cv2.applyColorMap(levels, cv2.COLORMAP_TURBO).reshape(-1, 3)[:, ::-1])
+    ground = np.percentile(points[:, 2], LOW) if len(points) else 0.0
+    return Cells(points.astype(np.float32), height_colours(points[:, 2] - ground))
 
 
 def show_cells(scene: SceneApi, cells: Cells | None) -> None:

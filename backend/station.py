@@ -20,6 +20,7 @@ from backend.live import Hub
 from backend.logins import LoginBook
 from backend.map3d_in_use import Map3dInUse
 from backend.map3d_jobs import Map3dJobs
+from backend.map3d_pictures import Map3dPictures
 from backend.map3d_store import Map3dStore
 from backend.missions import MissionStore
 from backend.navigator import NavigatorClient
@@ -70,6 +71,7 @@ class Station:
     maps3d: Map3dStore
     map3d_in_use: Map3dInUse
     map3d_jobs: Map3dJobs
+    map3d_pictures: Map3dPictures
     watcher: RunWatcher
     heartbeat: HeartbeatTeller
     scene: SceneProcess
@@ -138,6 +140,7 @@ def open_station(settings: Settings) -> Station:
         maps3d=maps3d,
         map3d_in_use=map3d_in_use,
         map3d_jobs=map3d_jobs,
+        map3d_pictures=Map3dPictures(maps3d, settings),
         watcher=watcher,
         heartbeat=heartbeat,
         scene=scene,

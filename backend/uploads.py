@@ -29,6 +29,17 @@ async def receive(request: Request, settings: Settings) -> Path:
     return path
 
 
+def lent(own: Path, settings: Settings) -> Path:
+    """A file of the station as if it had been uploaded, to be deleted after use; `own` stays."""
+    path = settings.upload_dir / f"{new_id()}{own.suffix}"
+    try:
+        os.link(own, path)
+    except OSError:  # a disk of its own, or one that knows no links
+        _check_size(own.stat().st_size, settings)
+        shutil.copyfile(own, path)
+    return path
+
+
 def refuse_too_large(request: Request, settings: Settings) -> None:
     """By the length that the browser announces, before a byte is written."""
     announced = request.headers.get("content-length", "0")

@@ -9,7 +9,7 @@ from fastapi.responses import FileResponse
 
 from backend.deps import ERRORS, PathId, TheStation
 from backend.errors import ConflictError, NotFoundError
-from backend.schemas import Map3dChoice, Map3dDocument, RunMap3d
+from backend.schemas import Map3dChoice, Map3dDocument, Map3dPicture, RunMap3d
 from backend.station import Station
 from navcore.recording.message_count import message_count
 from navcore.topics import LIDAR3D_CLOUD
@@ -83,6 +83,23 @@ def download_map3d(station: TheStation, site_id: PathId, run_id: PathId, name: F
     """map.ndt, cloud.laz, cloud.pcd or report.json."""
     path = station.maps3d.file(site_id, run_id, name)
     return FileResponse(path, filename=f"{run_id}-{name}", content_disposition_type="attachment")
+
+
+@router.get("/sites/{site_id}/maps3d/{run_id}/picture")
+def read_picture(station: TheStation, site_id: PathId, run_id: PathId) -> Map3dPicture:
+    """Where the map lies, seen from above; drawn when it is first asked for, which takes some seconds."""
+    return station.map3d_pictures.get(site_id, run_id)
+
+
+@router.get(
+    "/sites/{site_id}/maps3d/{run_id}/picture.png",
+    response_class=FileResponse,
+    responses={200: {"content": {"image/png": {}}}},
+)
+def read_pixels(station: TheStation, site_id: PathId, run_id: PathId) -> FileResponse:
+    """The map seen from above, coloured by height above the ground, see-through where nothing was seen."""
+    path = station.map3d_pictures.png(site_id, run_id)
+    return FileResponse(path, media_type="image/png", headers={"Cache-Control": "private, max-age=3600"})
 
 
 def _clouds(station: Station, run_id: str) -> int | None:

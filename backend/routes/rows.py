@@ -1,4 +1,7 @@
-"""Rows found in a 3D map: sent, proposed, thrown away. Accepting is drawing: the browser adds them to its site."""
+"""Rows found in a 3D map, sent or of a run: proposed, thrown away.
+
+Accepting is drawing: the browser adds them to its site.
+"""
 
 from __future__ import annotations
 
@@ -9,9 +12,11 @@ from fastapi import APIRouter, Query, Request
 from fastapi.concurrency import run_in_threadpool
 
 from backend.deps import ERRORS, PathId, TheLogin, TheStation
+from backend.errors import ConflictError
+from backend.map3d_files import CLOUD
 from backend.row_proposals import rows_in_a_map
 from backend.schemas import JobStarted, RowProposal
-from backend.uploads import receive
+from backend.uploads import lent, receive
 from navcore.errors import CloudError
 from navcore.maps.cloud_files.cloud_file import CLOUD_ENDINGS
 
@@ -23,6 +28,7 @@ FILE = {
         "content": {"application/octet-stream": {"schema": {"type": "string", "format": "binary"}}},
     }
 }
+MOVED = "The farm’s middle was moved after this map was made. Choose the map of a newer run."
 # KITTI's .bin is one scan in the sensor's frame, never a map.
 ENDINGS = tuple(ending for ending in CLOUD_ENDINGS if ending != ".bin")
 
@@ -39,6 +45,18 @@ async def find_rows(
     received = await receive(request, station.settings)
     source = received.rename(received.with_suffix(ending))
     kind = rows_in_a_map(PurePath(name).name, site.datum)
+    return JobStarted(job_id=station.jobs.start(source, station.row_proposals.taker(site_id, name), kind))
+
+
+@router.post("/of-run/{run_id}", status_code=202)
+def find_rows_of_run(station: TheStation, site_id: PathId, run_id: PathId) -> JobStarted:
+    """Look for rows in the 3D map that was made of a run of this farm; nothing is sent."""
+    site = station.sites.get(site_id).site
+    if station.maps3d.datum(site_id, run_id) != site.datum:
+        raise ConflictError(MOVED)
+    name = f"The 3D map of “{station.runs.get(run_id).mission_name}”"
+    source = lent(station.maps3d.file(site_id, run_id, CLOUD), station.settings)
+    kind = rows_in_a_map(name, site.datum)
     return JobStarted(job_id=station.jobs.start(source, station.row_proposals.taker(site_id, name), kind))
 
 

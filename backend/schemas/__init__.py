@@ -16,7 +16,15 @@ from backend.schemas.calibration import (
 from backend.schemas.drive import ActionResult, Nonce, OperatorAction, RunStart, StopResult
 from backend.schemas.imports import Job, JobStarted, JobState
 from backend.schemas.live import Heartbeat, LiveTopics
-from backend.schemas.maps3d import Map3dChoice, Map3dDocument, Map3dFile, Map3dJob, RunMap3d
+from backend.schemas.maps3d import (
+    HeightColour,
+    Map3dChoice,
+    Map3dDocument,
+    Map3dFile,
+    Map3dJob,
+    Map3dPicture,
+    RunMap3d,
+)
 from backend.schemas.missions import (
     MissionCreate,
     MissionDocument,
@@ -40,6 +48,7 @@ __all__ = [
     "CalibrationStart",
     "ErrorDocument",
     "Heartbeat",
+    "HeightColour",
     "Id",
     "ImportedSite",
     "Invitation",
@@ -52,6 +61,7 @@ __all__ = [
     "Map3dDocument",
     "Map3dFile",
     "Map3dJob",
+    "Map3dPicture",
     "MissionCreate",
     "MissionDocument",
     "MissionEdit",

@@ -40,6 +40,30 @@ class Map3dDocument(Sent):
     files: list[Map3dFile]
 
 
+class HeightColour(Sent):
+    """Colour, as CSS writes it, of what stands so high above the ground, m."""
+
+    height: float
+    colour: str
+
+
+class Map3dPicture(Sent):
+    """A map seen from above, to be laid over the farm; its pixels are at `picture.png` beside it.
+
+    Attributes:
+        bounds_3857: west, south, east, north in EPSG:3857, m; the picture's sides run along them.
+        pixel: edge of a pixel on the ground, m. made: when the map was, so that a new one is asked for anew.
+        legend: from the ground up; what stands higher has the last colour.
+    """
+
+    bounds_3857: tuple[float, float, float, float]
+    pixel: float
+    width_px: int
+    height_px: int
+    made: datetime
+    legend: list[HeightColour]
+
+
 class Map3dChoice(Received):
     """The run whose map the robot drives by; none where it drives without one."""
 

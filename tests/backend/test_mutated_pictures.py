@@ -20,7 +20,8 @@ IMPORTER = """
 import json, sys
 from pathlib import Path
 from backend.orthophoto_check import CheckParams
-from backend.orthophoto_import import import_picture, limit_resources
+from backend.confinement import limit_resources
+from backend.orthophoto_import import import_picture
 from navcore.errors import OrthophotoError
 limit_resources(2 * 2**30, 300)
 for name in sys.stdin.read().split():

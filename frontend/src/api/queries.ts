@@ -2,7 +2,7 @@
 import { keepPreviousData, queryOptions } from "@tanstack/react-query";
 
 import { get, post } from "./client";
-import type { CalibrationDocument, Job, Map3d, Map3dChoice, Mission, MissionDocument, Preview, Robot, RowProposal, RunDetail, RunDocument, RunMap3d, RunTrack, SiteDocument, SiteSummary, TrunkMap, VersionDocument } from "./types";
+import type { CalibrationDocument, Job, Map3d, Map3dChoice, Map3dPicture, Mission, MissionDocument, Preview, Robot, RowProposal, RunDetail, RunDocument, RunMap3d, RunTrack, SiteDocument, SiteSummary, TrunkMap, VersionDocument } from "./types";
 
 export const sitesQuery = queryOptions({ queryKey: ["sites"], queryFn: ({ signal }) => get<SiteSummary[]>("/api/sites", signal) });
 
@@ -28,11 +28,12 @@ export const trunksQuery = (siteId: string) =>
     refetchInterval: 30_000,
   });
 
-/** What was found in a 3D map and waits to be accepted; null if nothing waits. */
+/** What was found in a 3D map and waits to be accepted; null if nothing waits. It may come while nobody watches it. */
 export const rowProposalQuery = (siteId: string) =>
   queryOptions({
     queryKey: ["found-rows", siteId],
     queryFn: ({ signal }) => get<RowProposal | null>(`/api/sites/${siteId}/found-rows`, signal),
+    refetchInterval: 10_000,
   });
 
 /** The plan that would be driven. `revision` makes a changed site count as a changed question. */
@@ -106,3 +107,12 @@ export const map3dInUseQuery = (siteId: string) =>
 /** Of a farm, the newest first. */
 export const maps3dQuery = (siteId: string) =>
   queryOptions({ queryKey: ["maps3d", siteId], queryFn: ({ signal }) => get<Map3d[]>(`/api/sites/${siteId}/maps3d`, signal) });
+
+/** A map seen from above; the station draws it when it is first asked for. Made anew, it is another one. */
+export const map3dPictureQuery = (siteId: string, map: Map3d | null) =>
+  queryOptions({
+    queryKey: ["map3d-picture", siteId, map?.run_id, map?.made],
+    queryFn: ({ signal }) => get<Map3dPicture>(`/api/sites/${siteId}/maps3d/${map?.run_id}/picture`, signal),
+    enabled: map?.georeferenced === true,
+    staleTime: Infinity,
+  });

@@ -696,6 +696,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/sites/{site_id}/found-rows/of-run/{run_id}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Find Rows Of Run
+         * @description Look for rows in the 3D map that was made of a run of this farm; nothing is sent.
+         */
+        post: operations["find_rows_of_run_api_sites__site_id__found_rows_of_run__run_id__post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/sites/{site_id}/geojson": {
         parameters: {
             query?: never;
@@ -792,6 +812,46 @@ export interface paths {
          * @description map.ndt, cloud.laz, cloud.pcd or report.json.
          */
         get: operations["download_map3d_api_sites__site_id__maps3d__run_id__files__name__get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{site_id}/maps3d/{run_id}/picture": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Picture
+         * @description Where the map lies, seen from above; drawn when it is first asked for, which takes some seconds.
+         */
+        get: operations["read_picture_api_sites__site_id__maps3d__run_id__picture_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{site_id}/maps3d/{run_id}/picture.png": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Pixels
+         * @description The map seen from above, coloured by height above the ground, see-through where nothing was seen.
+         */
+        get: operations["read_pixels_api_sites__site_id__maps3d__run_id__picture_png_get"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1586,6 +1646,16 @@ export interface components {
             utc_s: number | null;
         };
         /**
+         * HeightColour
+         * @description Colour, as CSS writes it, of what stands so high above the ground, m.
+         */
+        HeightColour: {
+            /** Colour */
+            colour: string;
+            /** Height */
+            height: number;
+        };
+        /**
          * ImageArea
          * @description An area of the image, corners (u, v) in pixels in order.
          */
@@ -1873,6 +1943,37 @@ export interface components {
             /** Progress */
             progress: number;
             state: components["schemas"]["JobState"];
+        };
+        /**
+         * Map3dPicture
+         * @description A map seen from above, to be laid over the farm; its pixels are at `picture.png` beside it.
+         *
+         *     Attributes:
+         *         bounds_3857: west, south, east, north in EPSG:3857, m; the picture's sides run along them.
+         *         pixel: edge of a pixel on the ground, m. made: when the map was, so that a new one is asked for anew.
+         *         legend: from the ground up; what stands higher has the last colour.
+         */
+        Map3dPicture: {
+            /** Bounds 3857 */
+            bounds_3857: [
+                number,
+                number,
+                number,
+                number
+            ];
+            /** Height Px */
+            height_px: number;
+            /** Legend */
+            legend: components["schemas"]["HeightColour"][];
+            /**
+             * Made
+             * Format: date-time
+             */
+            made: string;
+            /** Pixel */
+            pixel: number;
+            /** Width Px */
+            width_px: number;
         };
         /**
          * MapMatch
@@ -4838,6 +4939,38 @@ export interface operations {
             };
         };
     };
+    find_rows_of_run_api_sites__site_id__found_rows_of_run__run_id__post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                site_id: string;
+                run_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            202: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["JobStarted"];
+                };
+            };
+            /** @description Any error */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorDocument"];
+                };
+            };
+        };
+    };
     export_site_api_sites__site_id__geojson_get: {
         parameters: {
             query?: never;
@@ -5017,6 +5150,70 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content?: never;
+            };
+            /** @description Any error */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorDocument"];
+                };
+            };
+        };
+    };
+    read_picture_api_sites__site_id__maps3d__run_id__picture_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                site_id: string;
+                run_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Map3dPicture"];
+                };
+            };
+            /** @description Any error */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorDocument"];
+                };
+            };
+        };
+    };
+    read_pixels_api_sites__site_id__maps3d__run_id__picture_png_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                site_id: string;
+                run_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "image/png": unknown;
+                };
             };
             /** @description Any error */
             default: {

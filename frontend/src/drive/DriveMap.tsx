@@ -13,6 +13,8 @@ import { PlanLayer } from "../map/PlanLayer";
 import { SiteLayer } from "../map/SiteLayer";
 import { TrunkLayer } from "../map/TrunkLayer";
 import { firstExtent } from "../map/fit";
+import { Map3dLayer } from "../map/map3d/Map3dLayer";
+import { useMap3dView } from "../map/map3d/useMap3dView";
 import { useSiteFrame } from "../map/useSiteFrame";
 import { isUnderWay } from "../ui/words";
 import css from "./drive.module.css";
@@ -30,10 +32,13 @@ export function DriveMap({ document, robot, plan, onMission }: Props) {
   const underWay = isUnderWay(useTopic("nav/status")?.state);
   const frame = useSiteFrame(document.site.datum);
   const [follow, setFollow] = useState(false);
-  const extent = useCallback(() => firstExtent(document.site, document.orthophoto, frame), [document, frame]);
+  const map3d = useMap3dView(document.id, document.orthophoto !== null);
+  const ground = document.orthophoto ?? map3d.picture;
+  const extent = useCallback(() => firstExtent(document.site, ground, frame), [document.site, ground, frame]);
   return (
     <MapView className={css.map}>
       {document.orthophoto && <OrthophotoLayer siteId={document.id} orthophoto={document.orthophoto} />}
+      <Map3dLayer siteId={document.id} view={map3d} />
       <SiteLayer site={document.site} frame={frame} />
       <PlanLayer plan={plan} frame={frame} />
       <LiveDrivenLayer frame={frame} />

@@ -14,11 +14,14 @@ export function sitePoints(site: SiteMap): Point[] {
   return points;
 }
 
+/** Something that lies on the map by its sides. */
+type Picture = Pick<OrthophotoInfo, "bounds_3857">;
+
 /** What the map should show first: what was drawn, else the picture, else the surroundings of the datum. */
-export function firstExtent(site: SiteMap, orthophoto: OrthophotoInfo | null, frame: SiteFrame): Extent {
+export function firstExtent(site: SiteMap, picture: Picture | null, frame: SiteFrame): Extent {
   const points = sitePoints(site);
   if (points.length > 1) return boundingExtent(points.map((point) => frame.toScreen(point)));
-  if (orthophoto) return [...orthophoto.bounds_3857];
+  if (picture) return [...picture.bounds_3857];
   const r = EMPTY_SITE_RADIUS;
   return boundingExtent([frame.toScreen([-r, -r]), frame.toScreen([r, r])]);
 }

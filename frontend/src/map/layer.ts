@@ -7,7 +7,7 @@ import { useEffect, useMemo } from "react";
 import { useMap } from "./MapView";
 
 /** What lies above what. */
-export const Z = { photo: 0, site: 10, plan: 20, trunks: 25, driven: 30, edit: 40, robot: 50, ghosts: 55 } as const;
+export const Z = { photo: 0, map3d: 5, site: 10, plan: 20, trunks: 25, driven: 30, edit: 40, robot: 50, ghosts: 55 } as const;
 
 /** A vector layer that lives as long as its component. With `declutter`, labels never cover each other. */
 export function useVectorLayer(zIndex: number, style?: StyleLike, declutter = false): VectorSource {

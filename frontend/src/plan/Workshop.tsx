@@ -8,7 +8,10 @@ import { FitTo } from "../map/FitTo";
 import { MapView } from "../map/MapView";
 import { OrthophotoLayer } from "../map/OrthophotoLayer";
 import { TrunkLayer } from "../map/TrunkLayer";
-import { firstExtent } from "../map/fit";
+import { firstExtent, sitePoints } from "../map/fit";
+import { Map3dLayer } from "../map/map3d/Map3dLayer";
+import { useFirstSight } from "../map/map3d/useFirstSight";
+import { useMap3dView } from "../map/map3d/useMap3dView";
 import type { ItemRef } from "../map/siteFeatures";
 import { useSiteFrame } from "../map/useSiteFrame";
 import { EditLayer } from "./editing/EditLayer";
@@ -44,7 +47,10 @@ export function Workshop({ document, onReload }: { document: SiteDocument; onRel
   const draft = useMissionDraft(document);
   const found = useQuery(rowProposalQuery(document.id)).data ?? null;
   const { site, commit } = editing;
-  const extent = useCallback(() => firstExtent(site, document.orthophoto, frame), [site, document.orthophoto, frame]);
+  const map3d = useMap3dView(document.id, document.orthophoto !== null);
+  const ground = document.orthophoto ?? map3d.picture;
+  const extent = useCallback(() => firstExtent(site, ground, frame), [site, ground, frame]);
+  const sight = useFirstSight(document.id, !document.orthophoto && sitePoints(site).length < 2, map3d.picture !== null);
   const onDrawn = (with_: Tool, points: Point[]) => {
     const added = drawn(site, with_, points);
     setTool("select");
@@ -57,6 +63,7 @@ export function Workshop({ document, onReload }: { document: SiteDocument; onRel
     <div className={css.page}>
       <MapView className={css.map}>
         {document.orthophoto && <OrthophotoLayer siteId={document.id} orthophoto={document.orthophoto} />}
+        <Map3dLayer siteId={document.id} view={map3d} />
         {tab === "farm" ? (
           <>
             <EditLayer site={site} frame={frame} tool={tool} selected={selected} onSelect={setSelected} onDrawn={onDrawn} onReshaped={(ref, points) => commit(reshape(site, ref, points))} onCancel={() => setTool("select")} />
@@ -69,7 +76,7 @@ export function Workshop({ document, onReload }: { document: SiteDocument; onRel
             <TrunkLayer siteId={document.id} frame={frame} onDrive={draft.draft ? undefined : draft.pressTrunk} />
           </>
         )}
-        <FitTo extent={extent} subject={document.id} />
+        <FitTo extent={extent} subject={sight} />
       </MapView>
       <aside className={css.side}>
         <SiteHeader document={document} editing={editing} />

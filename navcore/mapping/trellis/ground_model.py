@@ -76,6 +76,14 @@ class GroundModel:
         column, row = (xy[:, 0] - self.x) / self.cell, (xy[:, 1] - self.y) / self.cell
         return np.asarray(ndimage.map_coordinates(self.heights, (row, column), order=1, mode="nearest"))
 
+    def seen_height(self, xy: Floats) -> Floats:
+        """The same, but NaN where the ground of the cell was not seen or lies off the grid."""
+        column, row = np.rint((xy - (self.x, self.y)) / self.cell).astype(np.int64).T
+        on = (column >= 0) & (row >= 0) & (column < self.seen.shape[1]) & (row < self.seen.shape[0])
+        seen = np.zeros(len(xy), dtype=np.bool_)
+        seen[on] = self.seen[row[on], column[on]]
+        return np.where(seen, self.height(xy), np.nan)
+
 
 def _quantiles(cell: NDArray[np.int64], z: Floats, cells: int, params: GroundParams) -> Floats:
     """The low quantile of z in each cell (cells,); NaN where there are too few points."""

@@ -85,6 +85,14 @@ def ndt_map_of(data: bytes, source: str) -> NdtMap:
     return ndt_map
 
 
+def ndt_datum_of(data: bytes, source: str) -> Datum | None:
+    """Where the map of `ndt_map_bytes` lies on the Earth, None where that is not known; no cell is made.
+
+    Raises NdtMapError for a file that is cut off, changed or foreign, as `ndt_map_of` does.
+    """
+    return _checked(data, source)[0].datum
+
+
 def _checked(data: bytes, source: str) -> tuple[_Header, bytes]:
     if not data.startswith(_MAGIC) or len(data) < _START:
         raise NdtMapError(f"{source} is no NDT map; choose a file that `rowpilot map` wrote.")

@@ -6,6 +6,8 @@ own tags begin with "rowpilot:"; other programs leave them alone.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from navcore.geometry.geodesy import EnuFrame
 from navcore.maps.site_export import position_of
 from navcore.maps.site_map import Point, Zone, ZoneKind
@@ -17,16 +19,23 @@ _AREA = {ZoneKind.HEADLAND: "freespace", ZoneKind.KEEP_OUT: "keepout", ZoneKind.
 _KMH = 3.6
 
 
-def vector_map_to_osm(vector_map: VectorMap) -> bytes:
-    """The file. `lanelet_import` reads the same map back, to the last digit."""
-    return write_osm(_Writer(vector_map).data)
+# Height of the ground at a place in `map`, m, None where nobody knows it.
+GroundHeight = Callable[[Point], float | None]
+
+
+def vector_map_to_osm(vector_map: VectorMap, ground: GroundHeight = lambda _: None) -> bytes:
+    """The file. `lanelet_import` reads the same map back, to the last digit.
+
+    Nodes get their ellipsoidal height as "ele", m, where `ground` knows it.
+    """
+    return write_osm(_Writer(vector_map, ground).data)
 
 
 class _Writer:
     """Elements get ids in the order in which they are written."""
 
-    def __init__(self, vector_map: VectorMap) -> None:
-        self._map, self._frame = vector_map, EnuFrame(vector_map.datum)
+    def __init__(self, vector_map: VectorMap, ground: GroundHeight) -> None:
+        self._map, self._frame, self._ground = vector_map, EnuFrame(vector_map.datum), ground
         self.data = OsmData()
         self._next = 1
         self._add_datum()
@@ -44,10 +53,14 @@ class _Writer:
 
     def _node(self, place: Point, tags: dict[str, str]) -> str:
         lon, lat = position_of(place, self._frame)
-        local = {"local_x": repr(place[0]), "local_y": repr(place[1])}
+        local = {"local_x": repr(place[0]), "local_y": repr(place[1]), **self._ele(place)}
         identity = self._id()
         self.data.nodes[identity] = OsmNode(f"{lat:.11f}", f"{lon:.11f}", {**local, **tags})
         return identity
+
+    def _ele(self, place: Point) -> dict[str, str]:
+        up = self._ground(place)
+        return {} if up is None else {"ele": f"{self._frame.to_geodetic(*place, up)[2]:.3f}"}
 
     def _way(self, refs: list[str], tags: dict[str, str]) -> str:
         identity = self._id()

@@ -1,7 +1,8 @@
 import { SegmentedControl, TextInput } from "@mantine/core";
 
-import type { Lane, Row, SiteMap, Warehouse, Zone, ZoneKind } from "../../api/types";
-import { area, distance, length } from "../../geo/measure";
+import type { Lane, Point, Row, SiteMap, Warehouse, Zone, ZoneKind } from "../../api/types";
+import { leadsTo, sharpestRadius } from "../../geo/laneCourse";
+import { area, length } from "../../geo/measure";
 import { hectares, metres } from "../../ui/format";
 import { changeLane, changeRow, changeWarehouse, changeZone } from "../editing/edits";
 import css from "../plan.module.css";
@@ -17,6 +18,21 @@ const DEG = 180 / Math.PI;
 
 function NameField({ value, onChange }: { value: string; onChange: (name: string) => void }) {
   return <TextInput label="Name" value={value} maxLength={100} onChange={(event) => onChange(event.currentTarget.value)} />;
+}
+
+/** What is derived from a line's points. */
+function Course({ points }: { points: readonly Point[] }) {
+  const radius = sharpestRadius(points);
+  return (
+    <dl className={css.facts}>
+      <dt>Length</dt>
+      <dd>{metres(length(points))}</dd>
+      <dt>Leads to the</dt>
+      <dd>{leadsTo(points) ?? "–, it comes back"}</dd>
+      <dt>Sharpest bend</dt>
+      <dd>{radius === null ? "none, straight" : `radius ${metres(radius)}`}</dd>
+    </dl>
+  );
 }
 
 export function WarehouseFields({ site, warehouse, onCommit }: { site: SiteMap; warehouse: Warehouse; onCommit: Commit }) {
@@ -38,7 +54,8 @@ export function LaneFields({ site, lane, onCommit }: { site: SiteMap; lane: Lane
         <NumberField label="Width" {...WIDTH} value={lane.width} onChange={(width) => change({ width })} />
         <NumberField label="Speed" {...SPEED} value={lane.speed} onChange={(speed) => change({ speed })} />
       </div>
-      <p className={css.quiet}>Length {metres(length(lane.points))}. Drag a point to move it, drag the line to add one, double-tap a point to remove it.</p>
+      <Course points={lane.points} />
+      <p className={css.quiet}>Drag a point to move it, drag the line to add one, double-tap a point to remove it.</p>
     </>
   );
 }
@@ -54,7 +71,8 @@ export function RowFields({ site, row, onCommit }: { site: SiteMap; row: Row; on
         <NumberField label="Post every" {...SPACING} value={row.post_spacing} onChange={(post_spacing) => change({ post_spacing })} />
         <NumberField label="Plant every" {...SPACING} value={row.plant_spacing} onChange={(plant_spacing) => change({ plant_spacing })} />
       </div>
-      <p className={css.quiet}>Length {metres(distance(row.start, row.end))}. Drag its ends to fit the alley.</p>
+      <Course points={[row.start, row.end]} />
+      <p className={css.quiet}>Drag its ends to fit the alley.</p>
       <RepeatRow site={site} row={row} onCommit={onCommit} />
     </>
   );

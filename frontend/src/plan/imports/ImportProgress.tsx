@@ -1,39 +1,17 @@
-import { Button, Modal, Progress } from "@mantine/core";
-import { useQuery, useQueryClient } from "@tanstack/react-query";
+import { useQuery } from "@tanstack/react-query";
 import { useEffect, useState } from "react";
-import { useLocation } from "wouter";
 
 import { sentences } from "../../api/client";
 import { jobQuery } from "../../api/queries";
 import { upload } from "../../api/upload";
 import { bytes } from "../../ui/format";
-import { Reasons } from "../../ui/Reasons";
-
-const ALL = 100;
+import { ImportModal } from "./ImportModal";
 
 /** First the way of the file to the station, then what is made of it. */
 export function ImportProgress({ file, path, onClose }: { file: File; path: string; onClose: () => void }) {
   const { jobId, sent, error } = useUpload(file, path);
   const job = useQuery(jobQuery(jobId)).data;
-  useArrival(job?.state === "done" ? job.site_id : null, onClose);
-  const failed = error ?? (job?.state === "failed" ? [job.message] : null);
-  return (
-    <Modal opened onClose={onClose} withCloseButton={false} closeOnClickOutside={false} title={<b>Importing {file.name}</b>}>
-      {failed ? <Reasons reasons={failed} /> : <Step jobMessage={job?.message} progress={jobId ? (job?.progress ?? 0) : sent} size={file.size} />}
-      <Button mt="md" variant="default" fullWidth onClick={onClose}>
-        {failed ? "Close" : "Go on in the background"}
-      </Button>
-    </Modal>
-  );
-}
-
-function Step({ jobMessage, progress, size }: { jobMessage: string | undefined; progress: number; size: number }) {
-  return (
-    <>
-      <p>{jobMessage ?? `Sending ${bytes(size)} to the station`}</p>
-      <Progress value={progress * ALL} size="xl" aria-label="Progress" animated />
-    </>
-  );
+  return <ImportModal title={`Importing ${file.name}`} before={`Sending ${bytes(file.size)} to the station`} beforeDone={jobId ? 0 : sent} job={job} error={error} onClose={onClose} />;
 }
 
 function useUpload(file: File, path: string) {
@@ -56,18 +34,4 @@ function useUpload(file: File, path: string) {
     };
   }, [file, path]);
   return { jobId, sent, error };
-}
-
-/** Opens the site when it is there. */
-function useArrival(siteId: string | null | undefined, onClose: () => void): void {
-  const client = useQueryClient();
-  const [, go] = useLocation();
-  useEffect(() => {
-    if (!siteId) return;
-    void client.invalidateQueries({ queryKey: ["sites"] });
-    void client.invalidateQueries({ queryKey: ["site", siteId] });
-    void client.invalidateQueries({ queryKey: ["found-rows", siteId] });
-    go(`/plan/${siteId}`);
-    onClose();
-  }, [siteId]);
 }

@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from navcore.errors import NdtMapError
-from navcore.maps.ndt.ndt_file import ndt_map_bytes, ndt_map_of, read_ndt_map, write_ndt_map
+from navcore.maps.ndt.ndt_file import ndt_datum_of, ndt_map_bytes, ndt_map_of, read_ndt_map, write_ndt_map
 from navcore.maps.ndt.ndt_map import NdtMap
 from navcore.maps.site_map import Datum
 
@@ -56,6 +56,13 @@ def test_an_empty_map_is_a_file_too() -> None:
 def test_a_file_that_was_cut_off_is_refused(size: int) -> None:
     with pytest.raises(NdtMapError, match=r"a\.ndt is"):
         ndt_map_of(BYTES[:size], "a.ndt")
+    with pytest.raises(NdtMapError, match=r"a\.ndt is"):
+        ndt_datum_of(BYTES[:size], "a.ndt")
+
+
+def test_a_file_tells_where_it_lies_on_the_earth() -> None:
+    assert ndt_datum_of(BYTES, "a.ndt") == DATUM
+    assert ndt_datum_of(ndt_map_bytes(NdtMap()), "a.ndt") is None
 
 
 @settings(max_examples=100, deadline=None)

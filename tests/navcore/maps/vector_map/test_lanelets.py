@@ -14,6 +14,7 @@ from navcore.maps.site_map import Datum, Lane, Plant, PlantKind, Row, SiteMap, W
 from navcore.maps.vector_map.from_site import vector_map_of
 from navcore.maps.vector_map.lanelet_export import vector_map_to_osm
 from navcore.maps.vector_map.lanelet_import import import_lanelets
+from navcore.maps.vector_map.osm_data import read_osm
 from navcore.maps.vector_map.to_site import site_of, turns_of
 from navcore.maps.vector_map.vector_map import LaneKind, UTurn, VectorMap
 from tests.navcore.maps.test_lossless import sites
@@ -64,6 +65,17 @@ def test_a_map_comes_back_to_the_last_digit() -> None:
     assert imported.vector_map == MAP
     assert imported.notes == ()
     assert vector_map_to_osm(imported.vector_map) == data
+
+
+def test_nodes_get_their_height_where_the_ground_is_known() -> None:
+    data = vector_map_to_osm(MAP, lambda place: 2.0 if place[0] > 0.0 else None)
+    nodes = [node for node in read_osm(data).nodes.values() if "local_x" in node.tags]
+    for node in nodes:
+        known = float(node.tags["local_x"]) > 0.0
+        assert ("ele" in node.tags) is known
+        assert not known or abs(float(node.tags["ele"]) - 702.0) < 0.01  # m; the Earth is round
+    assert {"ele" in node.tags for node in nodes} == {True, False}
+    assert import_lanelets(data).vector_map == import_lanelets(vector_map_to_osm(MAP)).vector_map
 
 
 def _without_what_xml_lacks(vector_map: VectorMap) -> bool:
