@@ -21,6 +21,7 @@ from navcore.geometry.voxel_means import voxel_means
 from navcore.localization.ndt.ndt_matcher import NdtMatcher, NdtMatcherParams
 from navcore.localization.ndt.registration import Registration
 from navcore.localization.ndt.start_search import WIDE_SEARCH, StartSearchParams
+from navcore.localization.standing_uprights import StandingUprights
 from navcore.maps.ndt.ground_height import ground_height
 from navcore.maps.ndt.ndt_map import NdtMap
 from navcore.messages import FixQuality, MapMatch, MatchState, Odometry
@@ -89,6 +90,7 @@ class MapLocalizer:
         self._starter = NdtMatcher(ndt_map, params.starting)
         self._last: _Placed | None = None
         self._match = MapMatch(stamp_ns=0, state=MatchState.STARTING, reason="no cloud yet")
+        self._uprights = StandingUprights(ndt_map)
         self._confirmed = self._failed = 0
         self._usual = 0.0
 
@@ -102,7 +104,12 @@ class MapLocalizer:
         thin = voxel_means(points, self._p.voxel)
         T_odom_base = SE3.from_rpy((motion.x, motion.y, 0.0), motion.roll, motion.pitch, motion.yaw)
         found = self._start(thin, T_odom_base, motion) if self._last is None else self._track(thin, T_odom_base)
-        self._match = replace(found, stamp_ns=stamp_ns, points=len(thin))
+        if found.state is MatchState.MATCHED and self._last is not None:
+            self._uprights.add(points, self._last.T_map_base)
+        standing = self._uprights
+        self._match = replace(
+            found, stamp_ns=stamp_ns, points=len(thin), passed=standing.passed, gone=standing.gone
+        )  # fmt: skip
         return self._match
 
     def lose(self, reason: str) -> None:
