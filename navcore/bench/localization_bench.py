@@ -15,16 +15,19 @@ from pathlib import Path
 
 import numpy as np
 
+from navcore.bench.bad_input import CASES, SEED, case_figures, file_figures, heard
 from navcore.bench.block_run import block_run
 from navcore.bench.figure import Figure, share
 from navcore.bench.following import followed, led
 from navcore.bench.following_figures import following_figures
 from navcore.bench.localization_drive import Placed, localized
 from navcore.bench.ndt_rivals import following_rivals
+from navcore.bench.ndt_scans import NdtScanParams, ndt_scans
 from navcore.geometry.se2 import SE2
 from navcore.localization.map_watch import MapWatch
 from navcore.mapping.lidar3d.map_maker import MadeMap, MapMaker
 from navcore.mapping.lidar3d.work_folder import WorkFolder
+from navcore.maps.ndt.ndt_map import NdtMap
 from navcore.messages import MatchState
 from navcore.sim.block_drive import BlockDriveParams
 from navcore.sim.block_survey import fixed_points
@@ -47,6 +50,7 @@ class LocalizationBenchParams:
     Attributes:
         blocks: each mapped once. size: of a block. rows: that are driven. drives: in each season. wrong: places put
             wrong in all.
+        bad_drives, bad_turns: drives of each case of bad input, and turns of the LiDAR in each.
         followed: seasons in which the rivals follow a drive on the first block's map.
     """
 
@@ -56,10 +60,12 @@ class LocalizationBenchParams:
     drives: int = 1
     wrong: int = 200
     followed: tuple[Season, ...] = tuple(SEASONS)
+    bad_drives: int = 3
+    bad_turns: int = 300
 
 
 QUICK = LocalizationBenchParams(
-    blocks=1, size=BlockSize(alleys=2, length=24.0), wrong=50, followed=(Season.DORMANT,)
+    blocks=1, size=BlockSize(alleys=2, length=24.0), wrong=50, followed=(Season.DORMANT,), bad_drives=1, bad_turns=220
 )  # fmt: skip
 
 
@@ -76,7 +82,9 @@ def run_bench(params: LocalizationBenchParams, tell: Tell) -> tuple[Figure, ...]
                 tell(f"block {block.seed}, {SEASONS[season]}, drive {drive + 1}")
                 case = BlockDriveParams(seed=_DRIVE_SEED + drive, season=season, rows=params.rows)
                 driven[season].append((block, list(localized(block, case, made.ndt))))
-        rivals += rival_figures(block, params, made, tell) if number == 0 else []
+        if number == 0:
+            rivals += rival_figures(block, params, made, tell)
+            rivals += bad_input_figures(block, params, made.ndt, tell)
     figures = [f for season, drives in driven.items() for f in season_figures(SEASONS[season], drives, params.rows)]
     trust = trust_figures([placed for drives in driven.values() for _, placed in drives], params.wrong)
     return (*figures, *trust, *rivals)
@@ -97,6 +105,21 @@ def rival_figures(block: PearBlock, params: LocalizationBenchParams, made: MadeM
         case = BlockDriveParams(seed=_RIVAL_SEED, season=season, rows=params.rows)
         followers = followed(led(block, case), following_rivals(made.ndt, made.cloud.points))
         figures += following_figures(SEASONS[season], followers, _RIVAL_SEED)
+    return figures
+
+
+def bad_input_figures(block: PearBlock, params: LocalizationBenchParams, own: NdtMap, tell: Tell) -> list[Figure]:
+    """Each case, and each file."""
+    foreign = ndt_scans(NdtScanParams(block=params.blocks + 1, size=params.size, scans=0)).ndt_map
+    figures = file_figures(own, SEED)
+    for case in CASES:
+        tell(f"block {block.seed}: {case.name}")
+        drives = [
+            list(heard(block, case, foreign if case.foreign else own, params.bad_turns, SEED + drive,
+                       BlockDriveParams()))
+            for drive in range(params.bad_drives)
+        ]  # fmt: skip
+        figures += case_figures(case, drives, SEED)
     return figures
 
 
