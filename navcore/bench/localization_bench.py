@@ -51,7 +51,7 @@ class LocalizationBenchParams:
         blocks: each mapped once. size: of a block. rows: that are driven. drives: in each season. wrong: places put
             wrong in all.
         bad_drives, bad_turns: drives of each case of bad input, and turns of the LiDAR in each.
-        followed: seasons in which the rivals follow a drive on the first block's map.
+        followed: seasons in which the rivals follow a drive on the first block's map, and its rows.
     """
 
     blocks: int = 2
@@ -60,12 +60,14 @@ class LocalizationBenchParams:
     drives: int = 1
     wrong: int = 200
     followed: tuple[Season, ...] = tuple(SEASONS)
+    followed_rows: tuple[int, ...] = (0, 1)
     bad_drives: int = 3
     bad_turns: int = 300
 
 
 QUICK = LocalizationBenchParams(
-    blocks=1, size=BlockSize(alleys=2, length=24.0), wrong=50, followed=(Season.DORMANT,), bad_drives=1, bad_turns=220
+    blocks=1, size=BlockSize(alleys=2, length=24.0), wrong=50, followed=(Season.DORMANT,),
+    followed_rows=(0,), bad_drives=1, bad_turns=200,
 )  # fmt: skip
 
 
@@ -102,7 +104,7 @@ def rival_figures(block: PearBlock, params: LocalizationBenchParams, made: MadeM
     figures = []
     for season in params.followed:
         tell(f"block {block.seed}, {SEASONS[season]}: the rivals follow")
-        case = BlockDriveParams(seed=_RIVAL_SEED, season=season, rows=params.rows)
+        case = BlockDriveParams(seed=_RIVAL_SEED, season=season, rows=params.followed_rows)
         followers = followed(led(block, case), following_rivals(made.ndt, made.cloud.points))
         figures += following_figures(SEASONS[season], followers, _RIVAL_SEED)
     return figures

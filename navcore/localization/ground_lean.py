@@ -93,7 +93,7 @@ def _fitted(points: Floats, p: GroundLeanParams) -> Floats:
     A = np.column_stack((np.ones(len(points)), points[:, :2]))
     for _ in range(12):
         weighted = A * np.exp(-0.5 * (_above(points, plane) / scale) ** 2)[:, None]
-        plane = np.linalg.solve(weighted.T @ A + 1e-9 * np.eye(3), weighted.T @ points[:, 2])
+        plane = np.asarray(np.linalg.solve(weighted.T @ A + 1e-9 * np.eye(3), weighted.T @ points[:, 2]), np.float64)
         scale = max(0.75 * scale, 0.5 * p.core)
     return np.asarray(plane)
 

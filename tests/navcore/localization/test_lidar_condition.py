@@ -47,14 +47,13 @@ def test_without_ground_all_around_nothing_is_told() -> None:
 
 
 def test_a_robot_that_stands_in_a_rut_tells_no_lean() -> None:
-    watch = GroundLean()
-    for _ in range(100):
-        watch.add(rings(), SE2(1.0, 2.0, 0.3))
-    assert watch.lean is None
+    standing, driving = GroundLean(), GroundLean()
     for k in range(30):
-        watch.add(rings(), SE2(0.15 * k, 0.0, 0.0))
-    assert watch.lean is not None
-    assert np.degrees(watch.lean) == pytest.approx((0.0, 0.0), abs=0.3)  # deg
+        standing.add(rings(), SE2(1.0, 2.0, 0.3))
+        driving.add(rings(), SE2(0.15 * k, 0.0, 0.0))
+    assert standing.lean is None
+    assert driving.lean is not None
+    assert np.degrees(driving.lean) == pytest.approx((0.0, 0.0), abs=0.3)  # deg
 
 
 @pytest.mark.parametrize("turned_deg", [-5.0, 0.0, 5.0])
