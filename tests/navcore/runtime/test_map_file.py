@@ -31,13 +31,18 @@ def lay(path: Path, data: bytes, moment: int) -> None:
     os.utime(path, (moment, moment))
 
 
+def usable(file: MapFile) -> bool:
+    return file.localizer is not None
+
+
 def test_a_map_that_comes_later_is_taken_and_one_that_goes_is_given_up(tmp_path: Path, whole: bytes) -> None:
     path = tmp_path / "farm.ndt"
     file = MapFile(path, FARM)
-    assert (file.localizer, file.reason) == (None, NONE_YET)
+    assert not usable(file)
+    assert file.reason == NONE_YET
     lay(path, whole, 1)
     file.look()
-    assert file.localizer is not None
+    assert usable(file)
     path.unlink()
     file.look()
     assert file.reason == NONE_YET
@@ -50,15 +55,15 @@ def test_a_map_that_is_cut_off_while_it_is_used_is_given_up_with_a_reason(
     path = tmp_path / "farm.ndt"
     lay(path, whole, 1)
     file = MapFile(path, FARM)
-    assert file.localizer is not None
+    assert usable(file)
     lay(path, whole[: int(kept * len(whole))], 2)
     file.look()
-    assert file.localizer is None
+    assert not usable(file)
     assert "cut off" in file.reason or "no NDT map" in file.reason
 
 
 def test_the_map_of_another_farm_is_refused(tmp_path: Path, whole: bytes) -> None:
     lay(tmp_path / "farm.ndt", whole, 1)
     file = MapFile(tmp_path / "farm.ndt", replace(FARM, lat_deg=36.01))
-    assert file.localizer is None
+    assert not usable(file)
     assert "another farm" in file.reason
