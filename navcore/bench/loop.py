@@ -7,22 +7,20 @@ import os
 import time
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
-from navcore.bench.known_map import known_map
 from navcore.bench.loop_browsers import OperatorBrowsers
 from navcore.bench.loop_bus import BusWitness, MotionFrame, first_zero_after, was_moving
+from navcore.bench.loop_farm import map_of, near_the_rows
 from navcore.bench.loop_import import ImportLoad
 from navcore.bench.loop_log import LoopRecord, part, read_record
 from navcore.bench.loop_rights import give_up_niceness, give_up_priority, has_priority
 from navcore.bench.loop_station import LoopStation
-from navcore.config import RobotConfig
 from navcore.errors import TransportError
-from navcore.maps.site_map import SiteMap, Warehouse
+from navcore.maps.site_map import SiteMap
 from navcore.messages import NavStatus, RunState
 from navcore.runtime.simulation import SimulationParams
-from navcore.sim.demo_farm import demo_farm
 from navcore.topics import NAV_STATUS
 from navcore.transport.codec import decode, encode
 from navcore.transport.pubsub import Subscriber
@@ -123,9 +121,7 @@ class LoopBench:
         ask("/api/robot/site", {"site_id": site_id})
         if self._params.lidar3d:
             self._tell("Mapping the farm for the 3D LiDAR")
-            vehicle = RobotConfig().vehicle_params()
-            world = self._station.simulation.world(site, vehicle, 0)
-            self._station.use_map(site_id, known_map(world, vehicle, RobotConfig().lidar3d.mount))
+            self._station.use_map(site_id, map_of(site, self._station.simulation))
         mission = ask(f"/api/sites/{site_id}/missions/for-row", {"row_id": site.rows[0].id, "exit": "reverse"})
         self._mission = ask(f"/api/sites/{site_id}/missions", {"mission": mission})["id"]
         self._start()
@@ -234,13 +230,6 @@ class LoopBench:
             if status is not None and status.state is state:
                 return
         raise TransportError(f"The robot was not {state.value} within {STATE_S:.0f} s. Look at the station's log.")
-
-
-def near_the_rows() -> SiteMap:
-    """The demo farm with the robot parked where its road meets the rows: the camera is used within seconds."""
-    farm = demo_farm()
-    (x0, y0), (x1, y1) = farm.lanes[0].points[-2:]
-    return replace(farm, name="Bench", warehouse=Warehouse(x=x0, y=y0, yaw=math.atan2(y1 - y0, x1 - x0)))
 
 
 def _json(site: SiteMap) -> object:

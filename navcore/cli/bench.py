@@ -11,7 +11,6 @@ from navcore.cli.figure_lines import lines as _lines
 from navcore.cli.figure_lines import report as _report
 
 if TYPE_CHECKING:
-    from navcore.bench.loop import LoopParams, Phase
     from navcore.bench.mission_result import MissionResult
 
 BAD_INPUT = 2
@@ -59,33 +58,6 @@ def bench_mission(
         raise typer.Exit(BAD_INPUT) from None
     figures, made = mission_figures(bench.results), (bench.commit, bench.machine)
     typer.echo(_report(figures, *made) if as_json else _lines(figures, *made))
-
-
-@bench_app.command("loop")
-def bench_loop(
-    quick: Annotated[bool, typer.Option("--quick", help="Two minutes instead of eleven.")] = False,
-    as_json: Annotated[bool, typer.Option("--json", help="A JSON list, one row a figure.")] = False,
-    minutes: Annotated[float | None, typer.Option(min=1, help="Of driving, both phases together.")] = None,
-    browsers: Annotated[int, typer.Option(min=0, max=8, help="Headless browsers on Drive.")] = 2,
-    imports: Annotated[bool, typer.Option(help="Import an orthophoto all the while.")] = True,
-    lidar3d: Annotated[
-        bool, typer.Option("--lidar3d", help="And once more with a 3D LiDAR and a map in use: twice as long.")
-    ] = False,
-) -> None:
-    """The whole station in real time: ticks, lateness, from picture to CAN frame, from stop click to zero."""
-    from dataclasses import replace
-
-    from navcore.bench.loop import QUICK, LoopParams
-    from navcore.errors import RowpilotError
-
-    params = replace(QUICK if quick else LoopParams(), browsers=browsers, imports=imports)
-    if minutes is not None:
-        params = replace(params, phase_s=minutes * 30)
-    try:
-        _measure_loop(params, as_json, lidar3d=lidar3d)
-    except RowpilotError as error:
-        typer.echo(str(error), err=True)
-        raise typer.Exit(1) from None
 
 
 @bench_app.command("detector")
@@ -212,31 +184,6 @@ def bench_trellis(
     found = trellis_figures(QUICK if quick else TrellisBenchParams(), lambda line: typer.echo(line, err=True))
     figures, made = tuple(found), (commit(), machine())
     typer.echo(_report(figures, *made) if as_json else _lines(figures, *made))
-
-
-def _measure_loop(params: LoopParams, as_json: bool, *, lidar3d: bool) -> None:
-    import tempfile
-    from dataclasses import replace
-
-    from navcore.bench.loop_figures import lidar3d_figures, loop_figures
-    from navcore.bench.provenance import commit, machine
-
-    folder = Path(tempfile.mkdtemp(prefix="rowpilot-loop-"))
-    typer.echo(f"Database and logs are kept in {folder}", err=True)
-    phases = _driven_loop(folder / "plain", params)
-    figures = loop_figures(phases)
-    if lidar3d:
-        figures += lidar3d_figures(_driven_loop(folder / "lidar3d", replace(params, lidar3d=True)), phases)
-    typer.echo(_report(figures, commit(), machine()) if as_json else _lines(figures, commit(), machine()))
-
-
-def _driven_loop(folder: Path, params: LoopParams) -> tuple[Phase, ...]:
-    from contextlib import closing
-
-    from navcore.bench.loop import LoopBench
-
-    with closing(LoopBench(folder, params, lambda line: typer.echo(line, err=True))) as bench:
-        return bench.run()
 
 
 def _progress(result: MissionResult, left: int) -> None:
