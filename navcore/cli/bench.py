@@ -164,11 +164,20 @@ def bench_mapping(
     as_json: Annotated[bool, typer.Option("--json", help="A JSON list, one row a figure.")] = False,
 ) -> None:
     """Maps of simulated pear blocks: distances between surveyed posts, scans a second, memory by area."""
+    import tempfile
+
     from navcore.bench.mapping_bench import QUICK, MappingBenchParams, mapping_figures, run_bench
+    from navcore.bench.mapping_closure import closure_figures, closures
     from navcore.bench.provenance import commit, machine
 
-    mapped = run_bench(QUICK if quick else MappingBenchParams(), lambda line: typer.echo(line, err=True))
-    figures, made = mapping_figures(mapped), (commit(), machine())
+    def tell(line: str) -> None:
+        typer.echo(line, err=True)
+
+    params = QUICK if quick else MappingBenchParams()
+    figures, made = mapping_figures(run_bench(params, tell)), (commit(), machine())
+    if params.closure is not None:
+        with tempfile.TemporaryDirectory(prefix="rowpilot-closure-") as folder:
+            figures += tuple(closure_figures(closures(params.closure, Path(folder), tell)))
     typer.echo(_report(figures, *made) if as_json else _lines(figures, *made))
 
 
