@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from navcore.errors import InputError
+from navcore.geometry.cloud_coding import coded, decoded
 from navcore.geometry.point_cloud import PointCloud
-from navcore.messages.cloud_coding import coded, decoded
 
 _STEP_M = 0.0025
 _TIME_STEP_S = 1e-5
@@ -23,7 +23,7 @@ class LidarCloud:
 
     Attributes:
         stamp_ns: when the last point was taken.
-        turn: the points, about two bytes each, see `cloud_coding`; empty in older logs, which have instead:
+        turn: the points, about two bytes each, see `geometry.cloud_coding`; empty in older logs, which have instead:
         points: (N, 3) int16, steps of 2.5 mm. ages: (N,) uint16, how long before `stamp_ns` each was taken, steps of
             10 us. intensities: (N,) uint8. rings: (N,) uint8, the beam, counted from the lowest.
     """
