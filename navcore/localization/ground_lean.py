@@ -35,11 +35,11 @@ class GroundLeanParams:
     steepest: float = math.radians(10.0)
     rough: float = 0.15
     core: float = 0.08
-    most: int = 2000
+    most: int = 1000
     least: int = 30
-    step: float = 0.1
-    looks: int = 60
-    few: int = 20
+    step: float = 0.25
+    looks: int = 30
+    few: int = 10
 
 
 class GroundLean:

@@ -67,6 +67,7 @@ class StandingUprights:
         ):  # fmt: skip
             return
         self._looked_at = at
+        points = points[np.hypot(points[:, 0], points[:, 1]) < self._p.near + self._p.beside]
         near = [int(i) for i in self._tree.query_ball_point(at[:2], self._p.near) if self._in_reach(i, at)]
         for i, met in zip(near, self._met(near, T_map_base.apply(points)), strict=True):
             looks, seen = self._under_way.get(i, (0, 0))

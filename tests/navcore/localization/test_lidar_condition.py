@@ -50,7 +50,7 @@ def test_a_robot_that_stands_in_a_rut_tells_no_lean() -> None:
     standing, driving = GroundLean(), GroundLean()
     for k in range(30):
         standing.add(rings(), SE2(1.0, 2.0, 0.3))
-        driving.add(rings(), SE2(0.15 * k, 0.0, 0.0))
+        driving.add(rings(), SE2(0.3 * k, 0.0, 0.0))
     assert standing.lean is None
     assert driving.lean is not None
     assert np.degrees(driving.lean) == pytest.approx((0.0, 0.0), abs=0.3)  # deg
