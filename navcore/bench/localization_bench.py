@@ -15,12 +15,17 @@ from pathlib import Path
 
 import numpy as np
 
+from navcore.bench.bad_input import CASES, SEED, case_figures, file_figures, heard
 from navcore.bench.block_run import block_run
 from navcore.bench.figure import Figure, share
+from navcore.bench.following import followed, led
+from navcore.bench.following_figures import following_figures
 from navcore.bench.localization_drive import Placed, localized
+from navcore.bench.ndt_rivals import following_rivals
+from navcore.bench.ndt_scans import NdtScanParams, ndt_scans
 from navcore.geometry.se2 import SE2
 from navcore.localization.map_watch import MapWatch
-from navcore.mapping.lidar3d.map_maker import MapMaker
+from navcore.mapping.lidar3d.map_maker import MadeMap, MapMaker
 from navcore.mapping.lidar3d.work_folder import WorkFolder
 from navcore.maps.ndt.ndt_map import NdtMap
 from navcore.messages import MatchState
@@ -35,7 +40,7 @@ SEASONS = {Season.DORMANT: "winter", Season.BUDDING: "spring", Season.GROWING: "
 PAPER = {"lateral mean": 0.05, "lateral SD": 0.02, "heading mean": 1.0, "heading SD": 0.6}
 WANTED = {"lateral mean": 0.02, "lateral SD": 0.01, "heading mean": 0.3, "heading SD": 0.2}
 NOTICED_S, WRONG_M = 1.0, (0.3, 3.0)
-_MAP_SEED, _DRIVE_SEED, _WRONG_SEED = 10_001, 20_001, 30_001
+_MAP_SEED, _DRIVE_SEED, _WRONG_SEED, _RIVAL_SEED = 10_001, 20_001, 30_001, 40_001
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -45,6 +50,8 @@ class LocalizationBenchParams:
     Attributes:
         blocks: each mapped once. size: of a block. rows: that are driven. drives: in each season. wrong: places put
             wrong in all.
+        bad_drives, bad_turns: drives of each case of bad input, and turns of the LiDAR in each.
+        followed: seasons in which the rivals follow a drive on the first block's map, and its rows.
     """
 
     blocks: int = 2
@@ -52,32 +59,70 @@ class LocalizationBenchParams:
     rows: tuple[int, ...] = (0, 1)
     drives: int = 1
     wrong: int = 200
+    followed: tuple[Season, ...] = tuple(SEASONS)
+    followed_rows: tuple[int, ...] = (0, 1)
+    bad_drives: int = 3
+    bad_turns: int = 300
 
 
-QUICK = LocalizationBenchParams(blocks=1, size=BlockSize(alleys=2, length=24.0), wrong=50)
+QUICK = LocalizationBenchParams(
+    blocks=1, size=BlockSize(alleys=2, length=24.0), wrong=50, followed=(Season.DORMANT,),
+    followed_rows=(0,), bad_drives=1, bad_turns=200,
+)  # fmt: skip
 
 
 def run_bench(params: LocalizationBenchParams, tell: Tell) -> tuple[Figure, ...]:
     """All figures."""
     driven: dict[Season, list[tuple[PearBlock, list[Placed]]]] = {season: [] for season in SEASONS}
+    rivals: list[Figure] = []
     for number in range(params.blocks):
         block = scoring_block(number, params.size)
         tell(f"block {block.seed}: its map")
-        ndt_map = mapped(block, params.rows)
+        made = mapped(block, params.rows)
         for season in SEASONS:
             for drive in range(params.drives):
                 tell(f"block {block.seed}, {SEASONS[season]}, drive {drive + 1}")
                 case = BlockDriveParams(seed=_DRIVE_SEED + drive, season=season, rows=params.rows)
-                driven[season].append((block, list(localized(block, case, ndt_map))))
+                driven[season].append((block, list(localized(block, case, made.ndt))))
+        if number == 0:
+            rivals += rival_figures(block, params, made, tell)
+            rivals += bad_input_figures(block, params, made.ndt, tell)
     figures = [f for season, drives in driven.items() for f in season_figures(SEASONS[season], drives, params.rows)]
-    return (*figures, *trust_figures([placed for drives in driven.values() for _, placed in drives], params.wrong))
+    trust = trust_figures([placed for drives in driven.values() for _, placed in drives], params.wrong)
+    return (*figures, *trust, *rivals)
 
 
-def mapped(block: PearBlock, rows: tuple[int, ...]) -> NdtMap:
+def mapped(block: PearBlock, rows: tuple[int, ...]) -> MadeMap:
     """The block's map of a drive in winter."""
     run = block_run(block, BlockDriveParams(seed=_MAP_SEED, rows=rows))
     with tempfile.TemporaryDirectory() as folder:
-        return MapMaker(run.drive, WorkFolder(Path(folder), run.drive.name, "bench")).make().ndt
+        return MapMaker(run.drive, WorkFolder(Path(folder), run.drive.name, "bench")).make()
+
+
+def rival_figures(block: PearBlock, params: LocalizationBenchParams, made: MadeMap, tell: Tell) -> list[Figure]:
+    """Ours and others on the same drives, each on the same map's cells or points."""
+    figures = []
+    for season in params.followed:
+        tell(f"block {block.seed}, {SEASONS[season]}: the rivals follow")
+        case = BlockDriveParams(seed=_RIVAL_SEED, season=season, rows=params.followed_rows)
+        followers = followed(led(block, case), following_rivals(made.ndt, made.cloud.points))
+        figures += following_figures(SEASONS[season], followers, _RIVAL_SEED)
+    return figures
+
+
+def bad_input_figures(block: PearBlock, params: LocalizationBenchParams, own: NdtMap, tell: Tell) -> list[Figure]:
+    """Each case, and each file."""
+    foreign = ndt_scans(NdtScanParams(block=params.blocks + 1, size=params.size, scans=0)).ndt_map
+    figures = file_figures(own, SEED)
+    for case in CASES:
+        tell(f"block {block.seed}: {case.name}")
+        drives = [
+            list(heard(block, case, foreign if case.foreign else own, params.bad_turns, SEED + drive,
+                       BlockDriveParams()))
+            for drive in range(params.bad_drives)
+        ]  # fmt: skip
+        figures += case_figures(case, drives, SEED)
+    return figures
 
 
 def season_figures(

@@ -38,6 +38,13 @@ class Placed:
 
 def localized(block: PearBlock, params: BlockDriveParams, ndt_map: NdtMap) -> Iterator[Placed]:
     """Turn after turn; a match arrives with the next turn, as it does on the robot."""
+    return (placed for placed, _ in localized_with(block, params, ndt_map))
+
+
+def localized_with(
+    block: PearBlock, params: BlockDriveParams, ndt_map: NdtMap
+) -> Iterator[tuple[Placed, Senses]]:  # fmt: skip
+    """The same with what the robot knows by then, which goes on with the drive."""
     rtk, fused = (Navigator(block.site.datum, NavigatorParams(), params.vehicle) for _ in range(2))
     matcher, localizer = CloudMatcher(params.mount.T_base_lidar()), MapLocalizer(ndt_map)
     for turn in BlockDrive(block, params):
@@ -45,9 +52,8 @@ def localized(block: PearBlock, params: BlockDriveParams, ndt_map: NdtMap) -> It
             rtk.senses.take(part)
             fused.senses.take(part)
             matcher.hear(fused.odometry(part.now_ns))
-        yield _placed(
-            turn, rtk.senses, fused.senses, matcher.match(StampedCloud(turn.stamp_ns, turn.cloud), localizer)
-        )
+        match = matcher.match(StampedCloud(turn.stamp_ns, turn.cloud), localizer)
+        yield _placed(turn, rtk.senses, fused.senses, match), fused.senses
 
 
 def parts_of(turn: DriveTurn) -> Iterator[NavInputs]:

@@ -7,19 +7,20 @@ import os
 import time
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 from navcore.bench.loop_browsers import OperatorBrowsers
 from navcore.bench.loop_bus import BusWitness, MotionFrame, first_zero_after, was_moving
+from navcore.bench.loop_farm import map_of, near_the_rows
 from navcore.bench.loop_import import ImportLoad
 from navcore.bench.loop_log import LoopRecord, part, read_record
 from navcore.bench.loop_rights import give_up_niceness, give_up_priority, has_priority
 from navcore.bench.loop_station import LoopStation
 from navcore.errors import TransportError
-from navcore.maps.site_map import SiteMap, Warehouse
+from navcore.maps.site_map import SiteMap
 from navcore.messages import NavStatus, RunState
-from navcore.sim.demo_farm import demo_farm
+from navcore.runtime.simulation import SimulationParams
 from navcore.topics import NAV_STATUS
 from navcore.transport.codec import decode, encode
 from navcore.transport.pubsub import Subscriber
@@ -40,12 +41,14 @@ class LoopParams:
         phase_s: driven with the priorities that the system grants, and again without any, s.
         drive_s: between two stops, s.
         browsers: on Drive. imports: an orthophoto is imported all the while.
+        lidar3d: the robot carries a 3D LiDAR and has a map of the farm in use.
     """
 
     phase_s: float = 330.0
     drive_s: float = 6.0
     browsers: int = 2
     imports: bool = True
+    lidar3d: bool = False
 
 
 QUICK = LoopParams(phase_s=50.0, drive_s=1.5)
@@ -83,7 +86,7 @@ class LoopBench:
 
     def __init__(self, folder: Path, params: LoopParams, tell: Callable[[str], None]) -> None:
         self._params, self._tell = params, tell
-        self._station = LoopStation(folder)
+        self._station = LoopStation(folder, SimulationParams(lidar3d=params.lidar3d))
         self._status = Subscriber(self._station.endpoints, (NAV_STATUS.name,))
         self._browsers: OperatorBrowsers | None = None
         self._imports: ImportLoad | None = None
@@ -116,6 +119,9 @@ class LoopBench:
         ask = self._station.post
         site_id = ask("/api/sites", {"site": _json(site)})["id"]
         ask("/api/robot/site", {"site_id": site_id})
+        if self._params.lidar3d:
+            self._tell("Mapping the farm for the 3D LiDAR")
+            self._station.use_map(site_id, map_of(site, self._station.simulation))
         mission = ask(f"/api/sites/{site_id}/missions/for-row", {"row_id": site.rows[0].id, "exit": "reverse"})
         self._mission = ask(f"/api/sites/{site_id}/missions", {"mission": mission})["id"]
         self._start()
@@ -224,13 +230,6 @@ class LoopBench:
             if status is not None and status.state is state:
                 return
         raise TransportError(f"The robot was not {state.value} within {STATE_S:.0f} s. Look at the station's log.")
-
-
-def near_the_rows() -> SiteMap:
-    """The demo farm with the robot parked where its road meets the rows: the camera is used within seconds."""
-    farm = demo_farm()
-    (x0, y0), (x1, y1) = farm.lanes[0].points[-2:]
-    return replace(farm, name="Bench", warehouse=Warehouse(x=x0, y=y0, yaw=math.atan2(y1 - y0, x1 - x0)))
 
 
 def _json(site: SiteMap) -> object:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from navcore.bench.loop_bus import MotionFrame
-from navcore.messages import Decision, NavInputs
+from navcore.messages import Decision, MatchState, NavInputs
 from navcore.recording.reader import read_decisions, read_inputs
 
 TICK_NS = 20_000_000
@@ -25,23 +26,31 @@ class LoopRecord:
         tick_ns: (N,) monotonic time at which each tick began.
         exposures: of the pictures that a tick consumed, (exposure, tick), monotonic ns.
         commanding_ns: ticks that sent a command.
+        matched_ns: ticks that consumed a place on the 3D map.
+        bytes_s: of the whole log, B/s.
     """
 
     tick_ns: NDArray[np.int64]
     exposures: tuple[tuple[int, int], ...]
     commanding_ns: frozenset[int]
+    matched_ns: tuple[int, ...] = ()
+    bytes_s: float = 0.0
 
 
 def read_record(log: Path) -> LoopRecord:
     """Of a whole log. Raises LogError."""
     ticks: list[int] = []
     exposures: list[tuple[int, int]] = []
+    matched: list[int] = []
     for inputs in read_inputs(log):
         ticks.append(inputs.now_ns)
         exposures += _exposures(inputs)
+        matched += [inputs.now_ns for match in inputs.matches if match.state is MatchState.MATCHED]
     commanding = frozenset(d.stamp_ns for d in read_decisions(log) if _commands(d))
+    seconds = (ticks[-1] - ticks[0]) * 1e-9 if len(ticks) > 1 else math.inf
     return LoopRecord(
-        tick_ns=np.array(ticks, dtype=np.int64), exposures=tuple(exposures), commanding_ns=commanding
+        tick_ns=np.array(ticks, dtype=np.int64), exposures=tuple(exposures), commanding_ns=commanding,
+        matched_ns=tuple(matched), bytes_s=log.stat().st_size / seconds,
     )  # fmt: skip
 
 
@@ -52,6 +61,8 @@ def part(record: LoopRecord, from_ns: int, to_ns: int) -> LoopRecord:
         tick_ns=ticks[(ticks >= from_ns) & (ticks < to_ns)],
         exposures=tuple(e for e in record.exposures if from_ns <= e[1] < to_ns),
         commanding_ns=record.commanding_ns,
+        matched_ns=tuple(ns for ns in record.matched_ns if from_ns <= ns < to_ns),
+        bytes_s=record.bytes_s,
     )
 
 

@@ -15,7 +15,13 @@ from typing import Any, Self
 from urllib.error import HTTPError
 from urllib.request import HTTPCookieProcessor, Request, build_opener
 
+import msgspec
+
 from navcore.errors import TransportError
+from navcore.maps.ndt.ndt_file import write_ndt_map
+from navcore.maps.ndt.ndt_map import NdtMap
+from navcore.runtime.map_file import map_beside
+from navcore.runtime.simulation import SimulationParams
 from navcore.transport.endpoints import Endpoints
 from navcore.transport.request import Requester
 from navcore.transport.supervision import SupervisorReply, SupervisorRequest, SupervisorRequestKind
@@ -28,8 +34,8 @@ POLL_S = 0.2
 class LoopStation:
     """A running station and a login to it. Raises TransportError where it does not start or refuses."""
 
-    def __init__(self, folder: Path) -> None:
-        self.folder = folder
+    def __init__(self, folder: Path, simulation: SimulationParams = SimulationParams()) -> None:
+        self.folder, self.simulation = folder, simulation
         self._bus = Path(tempfile.mkdtemp(prefix="rp-"))  # short: the names of sockets must be
         self.endpoints = Endpoints(self._bus)
         self.cookies = CookieJar()
@@ -66,6 +72,10 @@ class LoopStation:
         port = next(a for a in arguments if a.startswith("port="))
         return arguments[arguments.index("--channel") + 1], int(port.removeprefix("port="))
 
+    def use_map(self, site_id: str, ndt_map: NdtMap) -> None:
+        """Lay it beside the robot's farm: the scan worker looks there every two seconds."""
+        write_ndt_map(map_beside(self.folder / "robot" / f"{site_id}.json"), ndt_map)
+
     def logs(self) -> list[Path]:
         """Run logs, oldest first."""
         return sorted((self.folder / "runs").glob("*.mcap"), key=lambda log: log.stat().st_mtime_ns)
@@ -82,7 +92,8 @@ class LoopStation:
     def _start(self) -> subprocess.Popen[bytes]:
         self.folder.mkdir(parents=True, exist_ok=True)
         call = "from navcore.cli import main; main()"
-        command = (sys.executable, "-c", call, "run", "--port", "0", "--data", str(self.folder))
+        command = (sys.executable, "-c", call, "run", "--port", "0", "--data", str(self.folder),
+                   "--simulation", msgspec.json.encode(self.simulation).decode())  # fmt: skip
         environment = {**os.environ, "ROWPILOT_BUS_DIR": str(self._bus)}
         with (self.folder / "out.txt").open("wb") as out, (self.folder / "err.txt").open("wb") as err:
             return subprocess.Popen(command, stdout=out, stderr=err, env=environment)

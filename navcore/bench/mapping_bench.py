@@ -12,7 +12,7 @@ import resource
 import tempfile
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 from navcore.bench.block_run import BlockRun, block_run
 from navcore.bench.figure import Figure
 from navcore.bench.mapped_posts import mapped_posts
+from navcore.bench.mapping_closure import ClosureParams
 from navcore.bench.mapping_distances import Distances, distances, laid_on
 from navcore.bench.mapping_growth import grown_map_bytes
 from navcore.geometry.se3 import SE3
@@ -44,16 +45,20 @@ class MappingBenchParams:
 
     Attributes:
         blocks: that are mapped, each by one drive. size: of a block. rows: that are driven, two make a U.
-        hectares: areas of which the memory is told.
+        hectares: areas of which the memory is told. closure: a long U, mapped with less and less; None for none.
     """
 
     blocks: int = 3
     size: BlockSize = BlockSize(alleys=4, length=72.0)
     rows: tuple[int, ...] = (0, 1, 2, 3)
     hectares: tuple[float, ...] = HECTARES
+    closure: ClosureParams | None = field(default_factory=ClosureParams)
 
 
-QUICK = MappingBenchParams(blocks=1, size=BlockSize(alleys=2, length=24.0), rows=(0, 1), hectares=(0.1, 1.0))
+QUICK = MappingBenchParams(
+    blocks=1, size=BlockSize(alleys=2, length=24.0), rows=(0, 1), hectares=(0.1, 1.0),
+    closure=None,
+)  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -16,10 +16,12 @@ from numpy.typing import NDArray
 from navcore.bench.ndt_scans import NdtScans, PlacedScan
 from navcore.geometry.se3 import SE3
 from navcore.geometry.voxel_means import voxel_means
+from navcore.localization.map_localizer import MapLocalizerParams
 from navcore.localization.ndt.ndt_matcher import NdtMatcher, NdtMatcherParams
 from navcore.localization.ndt.published_ndt import PublishedNdt
 from navcore.localization.ndt.registration import Registration
 from navcore.localization.ndt.start_search import WIDE_SEARCH
+from navcore.maps.ndt.ndt_map import NdtMap
 
 Floats = NDArray[np.float64]
 
@@ -58,7 +60,7 @@ def started(scans: NdtScans, off: float, turned: float, seed: int) -> list[Case]
         shift = np.array((off * math.cos(way), off * math.sin(way), 0.0))
         guess = SE3(T.R @ SE3.from_rpy((0, 0, 0), yaw=float(side * turned)).R, T.t + shift)
         points = voxel_means(scan.points, THINNED_M)
-        cases.append(Case(scan, points, guess, _foreign_source(points)))
+        cases.append(Case(scan, points, guess, foreign_source(points)))
     return cases
 
 
@@ -70,7 +72,16 @@ def rivals(scans: NdtScans) -> dict[str, Rival]:
         OURS_WIDE: partial(_ours, wide),
         PUBLISHED: partial(_ours, PublishedNdt(scans.ndt_map)),
     }
-    return {**own, **_small_gicp(scans)}
+    return {**own, **_small_gicp(scans.points)}
+
+
+def following_rivals(ndt_map: NdtMap, cloud: Floats) -> dict[str, Rival]:
+    """The same where odometry leads from scan to scan, ours as the robot has it then; `cloud` (M, 3) for others."""
+    return {
+        OURS: partial(_ours, NdtMatcher(ndt_map, MapLocalizerParams().tracking)),
+        PUBLISHED: partial(_ours, PublishedNdt(ndt_map)),
+        **_small_gicp(cloud),
+    }
 
 
 def pose_of(made: Registration | SE3) -> SE3:
@@ -86,7 +97,7 @@ def _installed() -> bool:
     return importlib.util.find_spec("small_gicp") is not None
 
 
-def _foreign_source(points: Floats) -> Any:
+def foreign_source(points: Floats) -> Any:
     """Points with normals and covariances; they are thin already."""
     if not _installed():
         return None
@@ -94,12 +105,12 @@ def _foreign_source(points: Floats) -> Any:
     return library.preprocess_points(points, downsampling_resolution=0.01, num_threads=1)[0]
 
 
-def _small_gicp(scans: NdtScans) -> dict[str, Rival]:
+def _small_gicp(cloud: Floats) -> dict[str, Rival]:
     if not _installed():
         return {}
     library = importlib.import_module("small_gicp")
     prepared = {
-        size: library.preprocess_points(scans.points, downsampling_resolution=size, num_threads=1)
+        size: library.preprocess_points(cloud, downsampling_resolution=size, num_threads=1)
         for size in sorted({size for _, size in SMALL_GICP.values()})
     }
     found: dict[str, Rival] = {}

@@ -6,6 +6,7 @@ import typer
 
 from navcore.cli import (
     bench_localization,
+    bench_loop,
     bench_tracking,
     dataset,
     decode_lidar3d,
@@ -32,6 +33,7 @@ app = typer.Typer(
     name="rowpilot", help="Onboard operator station for orchard and vineyard robots.", no_args_is_help=True
 )
 bench_localization.register(bench_app)
+bench_loop.register(bench_app)
 bench_tracking.register(bench_app)
 app.add_typer(bench_app, name="bench")
 app.add_typer(calibrate_app, name="calibrate")

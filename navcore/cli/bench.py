@@ -11,7 +11,6 @@ from navcore.cli.figure_lines import lines as _lines
 from navcore.cli.figure_lines import report as _report
 
 if TYPE_CHECKING:
-    from navcore.bench.loop import LoopParams
     from navcore.bench.mission_result import MissionResult
 
 BAD_INPUT = 2
@@ -59,30 +58,6 @@ def bench_mission(
         raise typer.Exit(BAD_INPUT) from None
     figures, made = mission_figures(bench.results), (bench.commit, bench.machine)
     typer.echo(_report(figures, *made) if as_json else _lines(figures, *made))
-
-
-@bench_app.command("loop")
-def bench_loop(
-    quick: Annotated[bool, typer.Option("--quick", help="Two minutes instead of eleven.")] = False,
-    as_json: Annotated[bool, typer.Option("--json", help="A JSON list, one row a figure.")] = False,
-    minutes: Annotated[float | None, typer.Option(min=1, help="Of driving, both phases together.")] = None,
-    browsers: Annotated[int, typer.Option(min=0, max=8, help="Headless browsers on Drive.")] = 2,
-    imports: Annotated[bool, typer.Option(help="Import an orthophoto all the while.")] = True,
-) -> None:
-    """The whole station in real time: ticks, lateness, from picture to CAN frame, from stop click to zero."""
-    from dataclasses import replace
-
-    from navcore.bench.loop import QUICK, LoopParams
-    from navcore.errors import RowpilotError
-
-    params = replace(QUICK if quick else LoopParams(), browsers=browsers, imports=imports)
-    if minutes is not None:
-        params = replace(params, phase_s=minutes * 30)
-    try:
-        _measure_loop(params, as_json)
-    except RowpilotError as error:
-        typer.echo(str(error), err=True)
-        raise typer.Exit(1) from None
 
 
 @bench_app.command("detector")
@@ -189,11 +164,20 @@ def bench_mapping(
     as_json: Annotated[bool, typer.Option("--json", help="A JSON list, one row a figure.")] = False,
 ) -> None:
     """Maps of simulated pear blocks: distances between surveyed posts, scans a second, memory by area."""
+    import tempfile
+
     from navcore.bench.mapping_bench import QUICK, MappingBenchParams, mapping_figures, run_bench
+    from navcore.bench.mapping_closure import closure_figures, closures
     from navcore.bench.provenance import commit, machine
 
-    mapped = run_bench(QUICK if quick else MappingBenchParams(), lambda line: typer.echo(line, err=True))
-    figures, made = mapping_figures(mapped), (commit(), machine())
+    def tell(line: str) -> None:
+        typer.echo(line, err=True)
+
+    params = QUICK if quick else MappingBenchParams()
+    figures, made = mapping_figures(run_bench(params, tell)), (commit(), machine())
+    if params.closure is not None:
+        with tempfile.TemporaryDirectory(prefix="rowpilot-closure-") as folder:
+            figures += tuple(closure_figures(closures(params.closure, Path(folder), tell)))
     typer.echo(_report(figures, *made) if as_json else _lines(figures, *made))
 
 
@@ -209,21 +193,6 @@ def bench_trellis(
     found = trellis_figures(QUICK if quick else TrellisBenchParams(), lambda line: typer.echo(line, err=True))
     figures, made = tuple(found), (commit(), machine())
     typer.echo(_report(figures, *made) if as_json else _lines(figures, *made))
-
-
-def _measure_loop(params: LoopParams, as_json: bool) -> None:
-    import tempfile
-    from contextlib import closing
-
-    from navcore.bench.loop import LoopBench
-    from navcore.bench.loop_figures import loop_figures
-    from navcore.bench.provenance import commit, machine
-
-    folder = Path(tempfile.mkdtemp(prefix="rowpilot-loop-"))
-    typer.echo(f"Database and logs are kept in {folder}", err=True)
-    with closing(LoopBench(folder, params, lambda line: typer.echo(line, err=True))) as bench:
-        figures = loop_figures(bench.run())
-    typer.echo(_report(figures, commit(), machine()) if as_json else _lines(figures, commit(), machine()))
 
 
 def _progress(result: MissionResult, left: int) -> None:

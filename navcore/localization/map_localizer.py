@@ -21,9 +21,10 @@ from navcore.geometry.voxel_means import voxel_means
 from navcore.localization.ndt.ndt_matcher import NdtMatcher, NdtMatcherParams
 from navcore.localization.ndt.registration import Registration
 from navcore.localization.ndt.start_search import WIDE_SEARCH, StartSearchParams
+from navcore.localization.standing_uprights import StandingUprights
 from navcore.maps.ndt.ground_height import ground_height
 from navcore.maps.ndt.ndt_map import NdtMap
-from navcore.messages import FixQuality, MapMatch, MatchState, Odometry
+from navcore.messages import FixQuality, MapMatch, MatchState, Odometry, PoseEstimate
 
 Floats = NDArray[np.float64]
 _NOWHERE = StartSearchParams(reach=0.0, turn=0.0)
@@ -37,7 +38,8 @@ class MapLocalizerParams:
         voxel: clouds are thinned to one point in such a cube, m, 0.1 to 1.
         tracking: of the matcher from one cloud to the next. starting: of the same about a rough guess.
         start_std: a start needs a place known to this, m; 1.5 m is what a person can point at.
-        stray: a start may end further from its guess than so many 1-sigma of it, and this many m more.
+        stray: a start may end no further from its guess than so many 1-sigma of it, and `apart` or `stray_turn` more,
+            m and rad.
         confirm: so many matches in a row make a start a place.
         agree, agree_turn: by so much a match may differ from what odometry led it to expect, m and rad.
         usual: share of the usual score below which a match counts as failed; the usual one follows slowly.
@@ -55,6 +57,7 @@ class MapLocalizerParams:
     )
     start_std: float = 1.5
     stray: float = 3.0
+    stray_turn: float = 0.1
     confirm: int = 3
     agree: float = 0.25
     agree_turn: float = 0.08
@@ -89,6 +92,7 @@ class MapLocalizer:
         self._starter = NdtMatcher(ndt_map, params.starting)
         self._last: _Placed | None = None
         self._match = MapMatch(stamp_ns=0, state=MatchState.STARTING, reason="no cloud yet")
+        self._uprights = StandingUprights(ndt_map)
         self._confirmed = self._failed = 0
         self._usual = 0.0
 
@@ -102,7 +106,12 @@ class MapLocalizer:
         thin = voxel_means(points, self._p.voxel)
         T_odom_base = SE3.from_rpy((motion.x, motion.y, 0.0), motion.roll, motion.pitch, motion.yaw)
         found = self._start(thin, T_odom_base, motion) if self._last is None else self._track(thin, T_odom_base)
-        self._match = replace(found, stamp_ns=stamp_ns, points=len(thin))
+        if found.state is MatchState.MATCHED and self._last is not None:
+            self._uprights.add(points, self._last.T_map_base)
+        standing = self._uprights
+        self._match = replace(
+            found, stamp_ns=stamp_ns, points=len(thin), passed=standing.passed, gone=standing.gone
+        )  # fmt: skip
         return self._match
 
     def lose(self, reason: str) -> None:
@@ -155,9 +164,8 @@ class MapLocalizer:
         found = self._starter.match(points, guess)
         if found.reason is not None:
             return self._unplaced(found.reason.rstrip("."))
-        off = guess.inverse() @ found.T_target_source
-        if math.hypot(off.t[0], off.t[1]) > self._p.stray * std + self._p.apart:
-            return self._unplaced(f"the cloud fits {math.hypot(off.t[0], off.t[1]):.1f} m from where GNSS puts it")
+        if strayed := self._strayed(guess.inverse() @ found.T_target_source, std, motion.pose):
+            return self._unplaced(strayed)
         rival = self._rival(points, found, guess, std)
         if rival > self._p.alike * found.score and motion.quality is not FixQuality.RTK_FIXED:
             return replace(
@@ -167,6 +175,15 @@ class MapLocalizer:
         self._last, self._confirmed, self._failed = _Placed(found.T_target_source, T_odom_base), 0, 0
         self._usual = found.score
         return replace(_told(found, MatchState.STARTING, "the place is being confirmed"), rival=rival)
+
+    def _strayed(self, off: SE3, std: float, pose: PoseEstimate) -> str:
+        """Why a start is too far from its guess, else empty."""
+        away, turned = math.hypot(off.t[0], off.t[1]), abs(off.rpy()[2])
+        if away > self._p.stray * std + self._p.apart:
+            return f"the cloud fits {away:.1f} m from where GNSS puts it"
+        if turned > self._p.stray * math.sqrt(max(pose.covariance[8], 0.0)) + self._p.stray_turn:
+            return f"the cloud fits turned by {math.degrees(turned):.0f} deg against where the robot points"
+        return ""
 
     def _guess(self, motion: Odometry) -> SE3:
         assert motion.pose is not None

@@ -29,7 +29,7 @@ from navcore.messages.camera import (
 )
 from navcore.messages.camera_mount import CameraMount, MountAgreement
 from navcore.messages.cloud import LidarCloud
-from navcore.messages.map_match import MapMatch, MatchState, Odometry
+from navcore.messages.map_match import LidarCondition, MapMatch, MatchState, Odometry
 from navcore.messages.mission_plan import USUAL_WIDTH, MissionPlan, PathSegment, PlannedTrunk, Point, SegmentKind
 from navcore.messages.recorder import RecorderStatus
 from navcore.messages.request import LinkLossPolicy, Reply, Request, RequestKind
@@ -72,6 +72,7 @@ __all__ = [
     "ImagePoint",
     "ImuSample",
     "LidarCloud",
+    "LidarCondition",
     "LidarScan",
     "LinkLossPolicy",
     "MapMatch",

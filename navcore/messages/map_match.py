@@ -20,8 +20,26 @@ class MatchState(StrEnum):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class LidarCondition:
+    """How the 3D LiDAR itself does, whether there is a map or not.
+
+    Attributes:
+        points: of the newest turn.
+        roll, pitch: of the ground as the LiDAR has it in `base_link`, rad (REP 103); 0 if it sits as its mount says,
+            and until enough of the ground was seen.
+        air: share of near points that hang in the air as drops do, 0 to 1.
+    """
+
+    points: int
+    roll: float = 0.0
+    pitch: float = 0.0
+    air: float = 0.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class MapMatch:
-    """One cloud on the map of cells. All but `stamp_ns`, `state` and `reason` is of the newest match that there was.
+    """One cloud on the map of cells. All but `stamp_ns`, `state`, `reason` and `lidar` is of the newest match that
+    there was.
 
     Attributes:
         stamp_ns: capture of the cloud's last point.
@@ -31,6 +49,8 @@ class MapMatch:
         score: 0 to 1, how well the points fit the cells; a high one does not prove the place.
         rival: score of the best other place that was tried, 0 to 1.
         points: number of points that were matched. latency_ms: from capture to publication.
+        passed, gone: posts and trunks of the map that were passed lately, and those of them that are not there.
+        lidar: how the sensor does; None where nobody looked.
     """
 
     stamp_ns: int
@@ -47,6 +67,9 @@ class MapMatch:
     rival: float = 0.0
     points: int = 0
     latency_ms: float = 0.0
+    passed: int = 0
+    gone: int = 0
+    lidar: LidarCondition | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from navcore.chassis.protocol import ChassisState
-from navcore.messages import CameraMount, LinkLossPolicy, MountAgreement, NavMode, RunState
+from navcore.messages import CameraMount, LinkLossPolicy, MapMatch, MountAgreement, NavMode, RunState
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -29,6 +29,11 @@ class EventParams:
             one that looks further up or down by `pitched_deg`, or stands higher or lower by `raised` m:
             slipping wheels and feet hidden in grass look like a decimetre.
         map_hold_s, map_std: age of the newest match and position 1-sigma while the 3D map is driven on.
+        lidar3d_deg: a 3D LiDAR that leans or looks further aside against its mount has been moved.
+        lidar3d_least: with fewer points in a turn it sees nothing.
+        air: share of its near points that hang in the air, from which it rains, snows or is dusty, 0 to 1.
+        gone, passed: share of the 3D map's posts and trunks that are not there any more, 0 to 1, and how many must
+            have been passed before that is said.
         battery_low_v: warn and slow (hazard 52). battery_stop_v: stop.
     """
 
@@ -55,6 +60,11 @@ class EventParams:
     raised: float = 0.2
     map_hold_s: float = 0.6
     map_std: float = 0.25
+    lidar3d_deg: float = 2.5
+    lidar3d_least: int = 100
+    air: float = 0.09
+    gone: float = 0.12
+    passed: int = 12
     battery_low_v: float = 23.5
     battery_stop_v: float = 22.0
 
@@ -68,7 +78,8 @@ class EventFacts:
     on the narrower side of a seen one that is near; `askew`: how far the camera leans to the right against the IMU,
     and its 1-sigma, rad; `mount`: how else it is mounted; `agreement`: whether it agrees with the 2D LiDAR; `halt`:
     what the operator is told where the plan lets the robot wait; `map_reason`: why the 3D map does not tell the
-    place, empty while it does, and `map_disputed`: it would, but other witnesses contradict it.
+    place, empty while it does, and `map_disputed`: it would, but other witnesses contradict it; `map_match`: the
+    newest word of the 3D LiDAR, and `lidar3d_turned`: how far to the left it looks, rad.
     """
 
     state: RunState
@@ -104,3 +115,5 @@ class EventFacts:
     map_age_s: float | None = None
     map_reason: str = ""
     map_disputed: bool = False
+    map_match: MapMatch | None = None
+    lidar3d_turned: float = 0.0

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 from navcore.chassis.protocol import ChassisState, ControlMode, GuardState, VehicleState
 from navcore.messages import LinkLossPolicy, NavMode, RunState
+from navcore.mission import lidar3d_events as lidar3d
 from navcore.mission.camera_events import (
     askew_words,
     is_askew,
@@ -76,6 +77,13 @@ def _event(
 ) -> Event:
     words = frozenset(Effect(word) for word in effects.split())
     return Event(name, words, when, text if callable(text) else _fixed(text))
+
+
+def _warning(
+    name: str, when: Callable[[EventFacts, EventParams], bool], words: Callable[[EventFacts], str]
+) -> Event:  # fmt: skip
+    """One that is told while a mission is under way."""
+    return _event(name, "WARN", lambda f, p: f.state in UNDER_WAY and when(f, p), words)
 
 
 def _drivers_failed(c: ChassisState) -> bool:
@@ -209,6 +217,11 @@ EVENTS: tuple[Event, ...] = (
         "The robot has driven on odometry for as long as it may, and waits for GNSS or a row.",
     ),
     _event("map_unsure", "HOLD", lambda f, p: _moving(f) and is_map_unsure(f, p), unsure_words),
+    _warning("lidar3d_empty", lidar3d.is_empty, lidar3d.empty_words),
+    _warning("lidar3d_leans", lidar3d.is_leaning, lidar3d.leaning_words),
+    _warning("lidar3d_turned", lidar3d.is_aside, lidar3d.aside_words),
+    _warning("lidar3d_drops", lidar3d.is_raining, lidar3d.raining_words),
+    _warning("map_outdated", lidar3d.is_outdated, lidar3d.outdated_words),
     _event("map_disputed", "WARN", lambda f, _: f.state in UNDER_WAY and is_map_disputed(f), disputed_words),
     _event(
         "held_too_long", "STOP",

@@ -8,6 +8,7 @@ from navcore.geometry.geodesy import EnuFrame
 from navcore.geometry.se2 import SE2
 from navcore.localization.map_watch import MapWatch, MapWatchParams
 from navcore.localization.row_line import RowLine
+from navcore.localization.travel_direction import TravelDirection, TravelDirectionParams
 from navcore.messages import FixQuality, GnssFix, MapMatch, MatchState, RowObservation
 
 NS = 1e-9
@@ -26,6 +27,7 @@ class MapEvidenceParams:
     antenna_x: float = 0.0
     antenna_y: float = 0.0
     watch: MapWatchParams = field(default_factory=MapWatchParams)
+    direction: TravelDirectionParams = field(default_factory=TravelDirectionParams)
 
 
 class MapEvidence:
@@ -39,6 +41,7 @@ class MapEvidence:
     def __init__(self, frame: EnuFrame, params: MapEvidenceParams) -> None:
         self._frame, self._params = frame, params
         self._watch = MapWatch(params.watch)
+        self._direction = TravelDirection(params.direction)
         self._antenna = (params.antenna_x, params.antenna_y)
         self.newest: MapMatch | None = None
         self.told: MapMatch | None = None
@@ -49,6 +52,7 @@ class MapEvidence:
     def add(self, match: MapMatch, T_odom_base: SE2) -> bool:
         """One match with the odometry at its capture; whether it may move the pose."""
         self.told = match
+        self._watch_direction(match, T_odom_base)
         if not self._watch.add_match(match, T_odom_base):
             self.streak = 0
             return False
@@ -73,6 +77,12 @@ class MapEvidence:
         ax, ay = SE2(0.0, 0.0, yaw).apply_point(*self._antenna)
         return SE2(self.antenna_at[0] - ax, self.antenna_at[1] - ay, yaw)
 
+    def _watch_direction(self, match: MapMatch, T_odom_base: SE2) -> None:
+        if match.state is MatchState.MATCHED:
+            self._direction.add(SE2(match.x, match.y, match.yaw), T_odom_base)
+        else:
+            self._direction.pause()
+
     def _place(self, lat_deg: float, lon_deg: float, height_m: float | None) -> tuple[float, float]:
         east, north, _ = self._frame.to_enu(lat_deg, lon_deg, self._frame.height_m if height_m is None else height_m)
         return float(east), float(north)
@@ -90,6 +100,11 @@ class MapEvidence:
     def age_s(self, now_ns: int) -> float | None:
         """Age of the newest match that was believed."""
         return None if self.newest is None else (now_ns - self.newest.stamp_ns) * NS
+
+    @property
+    def turned(self) -> float:
+        """How far the LiDAR looks to the left of where its mount says, rad; 0 until enough was driven."""
+        return self._direction.turned or 0.0
 
     @property
     def disputed(self) -> bool:

@@ -87,6 +87,8 @@ def event_facts(
         map_age_s=s.on_map.age_s(now_ns),
         map_reason=s.on_map.reason,
         map_disputed=s.on_map.disputed,
+        map_match=s.on_map.told,
+        lidar3d_turned=s.on_map.turned,
     )
 
 

@@ -15,12 +15,12 @@ from pathlib import Path
 import msgspec
 
 from navcore.config import RobotConfig, load_config
-from navcore.messages import MapMatch, MatchState, Odometry
+from navcore.messages import Odometry
 from navcore.messages.cloud import packed
 from navcore.promptness import be_prompt
 from navcore.runtime.clock import Every, Ticker
 from navcore.runtime.cloud_matcher import MOTIONS, CloudMatcher
-from navcore.runtime.clouds import Clouds, RealClouds, SimulatedClouds, StampedCloud
+from navcore.runtime.clouds import Clouds, RealClouds, SimulatedClouds
 from navcore.runtime.map_file import MapFile, map_beside
 from navcore.runtime.simulated_lidar3d import SimulatedLidar3d
 from navcore.runtime.simulation import SimulationParams
@@ -52,7 +52,7 @@ class ScanWorker:
         while (received := self._bus.receive(0)) is not None:
             self._matcher.hear(decode(Odometry, received.payload))
         for turn in self._clouds.take():
-            match = self._match(turn)
+            match = self._matcher.match(turn, self._map.localizer, self._map.reason)
             latency_ms = (time.monotonic_ns() - turn.stamp_ns) * 1e-6
             self._publisher.publish(MAP_MATCH.name, replace(match, latency_ms=latency_ms))
             self._publisher.publish(LIDAR3D_CLOUD.name, packed(turn.stamp_ns, turn.cloud))
@@ -62,12 +62,6 @@ class ScanWorker:
         self._clouds.close()
         self._publisher.close()
         self._bus.close()
-
-    def _match(self, turn: StampedCloud) -> MapMatch:
-        localizer = self._map.localizer
-        if localizer is None:
-            return MapMatch(stamp_ns=turn.stamp_ns, state=MatchState.NO_MAP, reason=self._map.reason)
-        return self._matcher.match(turn, localizer)
 
 
 def main() -> None:

@@ -7,18 +7,21 @@ from navcore.localization.map_localizer import MapLocalizer
 from navcore.messages import MapMatch, Odometry, SimTruth
 from navcore.runtime.cloud_matcher import CloudMatcher
 from navcore.runtime.clouds import StampedCloud
+from navcore.sim.lidar3d import WORKING_3D, Lidar3dFaults
 from navcore.sim.lidar3d_feed import Lidar3dFeed
 
 
 class SimulatedMapEye:
-    """Works as `ScanWorker` does, without its processes. `blind`: the LiDAR is covered."""
+    """Works as `ScanWorker` does, without its processes. `blind`: no turn comes. `faults`: of the LiDAR."""
 
     def __init__(self, feed: Lidar3dFeed, mount: LidarMount, localizer: MapLocalizer) -> None:
         self._feed, self._matcher, self.localizer = feed, CloudMatcher(mount.T_base_lidar()), localizer
         self.blind = False
+        self.faults: Lidar3dFaults = WORKING_3D
 
     def look(self, truth: SimTruth, motion: Odometry) -> MapMatch | None:
         """See `MapEye`."""
+        self._feed.faults = self.faults
         self._feed.add(truth)
         self._matcher.hear(motion)
         turn = self._feed.turn()

@@ -20,7 +20,7 @@ from navcore.maps.site_map import Row
 from navcore.messages import GnssFix, ImuSample, SimTruth
 from navcore.sim.block_survey import driven
 from navcore.sim.body_pose import body_pose
-from navcore.sim.lidar3d import C16, Lidar3dParams
+from navcore.sim.lidar3d import C16, WORKING_3D, Lidar3dFaults, Lidar3dParams
 from navcore.sim.lidar3d_feed import Lidar3dFeed
 from navcore.sim.map_error import NO_MAP_ERROR
 from navcore.sim.orchard import Season
@@ -51,6 +51,7 @@ class BlockDriveParams:
         speed: m/s, 0.3 to 1.5. turn_speed: at most that in the turns.
         mount: of the LiDAR. lidar: which one.
         vehicle: paper C's Scout 2.0. payload: kg.
+        faults: of the LiDAR. faults_from_s: since when, s after the start, at least 0.
     """
 
     seed: int = 1
@@ -63,6 +64,8 @@ class BlockDriveParams:
     lidar: Lidar3dParams = C16
     vehicle: VehicleParams = SCOUT_2
     payload: float = 20.0
+    faults: Lidar3dFaults = WORKING_3D
+    faults_from_s: float = 0.0
 
     def __post_init__(self) -> None:
         if not (0.3 <= self.speed <= 1.5 and 0.3 <= self.turn_speed <= 1.5):
@@ -131,6 +134,8 @@ class BlockDrive:
             wheels.add(since[-1].wheels)
             fixes += receiver.feed(since[-1].nmea, now_ns)
             self._feed.add(since[-1].truth)
+            if (now_ns - START_NS) * 1e-9 >= self._params.faults_from_s:
+                self._feed.faults = self._params.faults
             v, omega = self._driver.steer(since[-1].truth, now_ns)
             if (turn := self._feed.turn()) is not None:
                 yield DriveTurn(

@@ -9,18 +9,18 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from navcore.bench.known_map import known_map
 from navcore.geometry.lidar_mount import robot_lidar3d
 from navcore.localization.map_localizer import MapLocalizer
 from navcore.maps.mission import RowExit
 from navcore.maps.ndt.ndt_map import NdtMap
 from navcore.maps.site_map import SiteMap
-from navcore.messages import GhostSource, MatchState, NavMode, RunState, SimTruth
+from navcore.messages import GhostSource, MatchState, NavMode, RunState
 from navcore.planning.mission_planner import mission_for_row
 from navcore.runtime.lockstep import Lockstep, Tick
 from navcore.runtime.simulated_eye import ProjectedEye
 from navcore.runtime.simulated_map_eye import SimulatedMapEye
-from navcore.sim.body_pose import body_pose
-from navcore.sim.lidar3d import C16, Lidar3d
+from navcore.sim.lidar3d import C16, Lidar3dFaults
 from navcore.sim.lidar3d_feed import Lidar3dFeed
 from navcore.sim.map_error import NO_MAP_ERROR
 from navcore.sim.trellis.trellised import trellised
@@ -28,8 +28,6 @@ from navcore.sim.world import World, WorldParams
 from navcore.vehicle import PAPER_A
 from tests.missions.conftest import CONFIG, Drive, small_farm
 
-STEP_M = 2.0
-TURN_NS = 100_000_000
 AS_DRAWN = WorldParams(seed=4, map_error=NO_MAP_ERROR)
 
 
@@ -44,27 +42,9 @@ def lidar_of(world: World, seed: int) -> Lidar3dFeed:
     return Lidar3dFeed(scene, world.terrain, PAPER_A, MOUNT, LIDAR, seed)
 
 
-def mapped(world: World) -> NdtMap:
-    """The farm's map, from clouds taken at known places along its roads and rows."""
-    ndt_map, site = NdtMap(datum=world.site.datum), world.site
-    lidar = Lidar3d(trellised(site, world.orchard, world.terrain).scene, MOUNT, LIDAR, 9)
-    ways = [(row.start, row.end) for row in site.rows] + [(lane.points[0], lane.points[-1]) for lane in site.lanes]
-    stamp_ns = 0
-    for (x0, y0), (x1, y1) in ways:
-        yaw, length = math.atan2(y1 - y0, x1 - x0), math.dist((x0, y0), (x1, y1))
-        for share in np.arange(0.0, 1.0, STEP_M / length):
-            stamp_ns += TURN_NS
-            x, y = x0 + share * (x1 - x0), y0 + share * (y1 - y0)
-            truth = SimTruth(stamp_ns=stamp_ns, x=x, y=y, yaw=yaw, roll=0.0, pitch=0.0, v=0.0, omega=0.0)
-            T_map_base = body_pose(truth, world.terrain, PAPER_A)
-            turn = lidar.turn(stamp_ns, (stamp_ns - TURN_NS, stamp_ns), (T_map_base, T_map_base))
-            ndt_map.add((T_map_base @ MOUNT.T_base_lidar()).apply(turn.cloud.points))
-    return ndt_map
-
-
 @pytest.fixture(scope="module")
 def farm_map() -> NdtMap:
-    return mapped(World(small_farm(), PAPER_A, AS_DRAWN))
+    return known_map(World(small_farm(), PAPER_A, AS_DRAWN), PAPER_A, MOUNT, LIDAR)
 
 
 @pytest.fixture
@@ -155,3 +135,29 @@ def test_gnss_that_lies_by_two_metres_and_calls_itself_fixed_is_noticed_and_stop
     pose, truth = drive.ticks[-1].decision.status.gnss_pose, drive.ticks[-1].truth
     assert pose is not None
     assert math.dist((pose.x, pose.y), (truth.x, truth.y)) < 0.1  # m: the lie does not move the pose
+
+
+def test_a_lidar_that_leans_out_of_its_mount_is_told_while_the_robot_drives(park_on_map: Callable[[], Drive]) -> None:
+    drive = park_on_map()
+    map_eye = drive.lockstep.map_eye
+    assert isinstance(map_eye, SimulatedMapEye)
+    map_eye.faults = Lidar3dFaults(turned=(math.radians(5.0), 0.0, 0.0))
+    last = drive.until(lambda tick: told(tick, "leans 5 degrees to the right"), seconds=30)
+    assert told(last, "leans 5 degrees to the right"), last.decision.status.events
+    assert last.decision.status.state is RunState.DRIVING
+
+
+def test_a_covered_lidar_is_told_and_a_wet_one_too(park_on_map: Callable[[], Drive]) -> None:
+    drive = park_on_map()
+    map_eye = drive.lockstep.map_eye
+    assert isinstance(map_eye, SimulatedMapEye)
+    drive.until(lambda _: False, seconds=2)
+    map_eye.faults = Lidar3dFaults(rain=0.3)
+    assert told(drive.until(lambda tick: told(tick, "Rain, snow or dust"), seconds=3), "Rain, snow or dust")
+    map_eye.faults = Lidar3dFaults(empty=True)
+    assert told(drive.until(lambda tick: told(tick, "sees nothing"), seconds=2), "sees nothing")
+
+
+def told(tick: Tick, words: str) -> bool:
+    """Whether an event on Drive says so."""
+    return any(words in event.text for event in tick.decision.status.events)

@@ -1847,6 +1847,35 @@ export interface components {
             p2: number;
         };
         /**
+         * LidarCondition
+         * @description How the 3D LiDAR itself does, whether there is a map or not.
+         *
+         *     Attributes:
+         *         points: of the newest turn.
+         *         roll, pitch: of the ground as the LiDAR has it in `base_link`, rad (REP 103); 0 if it sits as its mount says,
+         *             and until enough of the ground was seen.
+         *         air: share of near points that hang in the air as drops do, 0 to 1.
+         */
+        LidarCondition: {
+            /**
+             * Air
+             * @default 0
+             */
+            air: number;
+            /**
+             * Pitch
+             * @default 0
+             */
+            pitch: number;
+            /** Points */
+            points: number;
+            /**
+             * Roll
+             * @default 0
+             */
+            roll: number;
+        };
+        /**
          * LinkLossPolicy
          * @description What the robot does when no operator's page has been heard of for 5 s.
          * @enum {string}
@@ -1977,7 +2006,8 @@ export interface components {
         };
         /**
          * MapMatch
-         * @description One cloud on the map of cells. All but `stamp_ns`, `state` and `reason` is of the newest match that there was.
+         * @description One cloud on the map of cells. All but `stamp_ns`, `state`, `reason` and `lidar` is of the newest match that
+         *     there was.
          *
          *     Attributes:
          *         stamp_ns: capture of the cloud's last point.
@@ -1987,6 +2017,8 @@ export interface components {
          *         score: 0 to 1, how well the points fit the cells; a high one does not prove the place.
          *         rival: score of the best other place that was tried, 0 to 1.
          *         points: number of points that were matched. latency_ms: from capture to publication.
+         *         passed, gone: posts and trunks of the map that were passed lately, and those of them that are not there.
+         *         lidar: how the sensor does; None where nobody looked.
          */
         MapMatch: {
             /**
@@ -2005,10 +2037,21 @@ export interface components {
              */
             covariance: number[];
             /**
+             * Gone
+             * @default 0
+             */
+            gone: number;
+            /**
              * Latency Ms
              * @default 0
              */
             latency_ms: number;
+            lidar?: components["schemas"]["LidarCondition"] | null;
+            /**
+             * Passed
+             * @default 0
+             */
+            passed: number;
             /**
              * Pitch
              * @default 0

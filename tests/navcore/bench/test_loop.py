@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
+from navcore.bench.loop import Phase
 from navcore.bench.loop_bus import MotionFrame, first_zero_after, was_moving
+from navcore.bench.loop_figures import lidar3d_figures
 from navcore.bench.loop_log import TICK_NS, LoopRecord, exposure_to_frame, lateness
 
 MS = 1_000_000
@@ -59,3 +63,25 @@ def test_only_a_stop_of_a_moving_robot_is_measured() -> None:
     assert not was_moving([zero, MotionFrame(50 * MS, 0.0, 0.0)], 40 * MS)
     assert not was_moving([driving], 0)
     assert first_zero_after([driving], 10 * MS) is None
+
+
+def phase(period_ms: float, places: int, bytes_s: float) -> Phase:
+    """Half a second of ticks that are all as long."""
+    ticks = [GRID_NS + round(k * period_ms * MS) for k in range(26)]
+    of_ticks = replace(record(ticks), matched_ns=tuple(ticks[:places]), bytes_s=bytes_s)
+    return Phase(real_time=True, stops_s=(), missed=0, record=of_ticks, frames=())
+
+
+def test_a_tick_that_feels_the_3d_lidar_fails_beside_one_without() -> None:
+    slow = {f.figure: f for f in lidar3d_figures([phase(26.0, 13, 2e6)], [phase(20.0, 0, 1e6)])}
+    p99 = slow["control tick period p99, 3D LiDAR and map, with SCHED_FIFO"]
+    assert p99.value == pytest.approx(0.026)  # s
+    assert p99.baseline == pytest.approx(0.020)  # s
+    assert p99.ok is False
+    assert slow["places on the map a second, 3D LiDAR and map, with SCHED_FIFO"].value == pytest.approx(20.0)
+    log = slow["log, 3D LiDAR and map, with SCHED_FIFO"]
+    assert log.value == pytest.approx(2.0)  # MB/s
+    assert log.baseline == pytest.approx(1.0)  # MB/s
+    good = lidar3d_figures([phase(20.0, 5, 2e6)], [])
+    assert [f.ok for f in good] == [True, True, None, None]
+    assert good[0].baseline is None

@@ -9,7 +9,16 @@ from typing import Any
 import pytest
 
 from navcore.chassis.protocol import ChassisState, ControlMode, GuardState, VehicleState
-from navcore.messages import CameraMount, LinkLossPolicy, MountAgreement, NavMode, RunState
+from navcore.messages import (
+    CameraMount,
+    LidarCondition,
+    LinkLossPolicy,
+    MapMatch,
+    MatchState,
+    MountAgreement,
+    NavMode,
+    RunState,
+)
 from navcore.mission.event_facts import EventFacts, EventParams
 from navcore.mission.events import EVENTS, active_events, effects_of
 from navcore.mission.state_machine import Effect
@@ -21,14 +30,28 @@ CHASSIS = ChassisState(
     guard_reason="", accepted_seq=1,
 )  # fmt: skip
 MOUNT = CameraMount(pitch=0.01, pitch_std=0.005, height=0.82, height_std=0.03, told_height=0.8)
+LIDAR = LidarCondition(points=20_000, roll=0.01, pitch=-0.01, air=0.05)
+MATCH = MapMatch(stamp_ns=0, state=MatchState.MATCHED, passed=40, gone=2, lidar=LIDAR)
 WELL = EventFacts(
     state=RunState.DRIVING, mode=NavMode.GNSS_PATH, tick_s=0.02, chassis=CHASSIS, chassis_age_s=0.02,
     system_age_s=0.05, pose_std=0.02, carried=0.0, gnss_age_s=0.2, pose_cap=None, pose_cap_reason="",
     pose_cap_passes=False, row_age_s=None, row_reason="", entrance=None, room=None, lateral_error=0.02,
     captured=True, stuck=False, held_s=0.0, arming_s=0.0, link_age_s=0.5, link_loss=LinkLossPolicy.STOP, zone="",
-    start_distance=0.1, waiting_for_gnss=False, askew=(0.01, 0.01), mount=MOUNT,
+    start_distance=0.1, waiting_for_gnss=False, askew=(0.01, 0.01), mount=MOUNT, map_match=MATCH,
 )  # fmt: skip
+
+
+def lidar3d(**condition: Any) -> dict[str, Any]:
+    """Facts of a 3D LiDAR that does not do well."""
+    return {"map_match": replace(MATCH, lidar=replace(LIDAR, **condition))}
+
+
 FAULTS: dict[str, dict[str, Any]] = {
+    "lidar3d_empty": lidar3d(points=20),
+    "lidar3d_leans": lidar3d(roll=-math.radians(5.0)),
+    "lidar3d_turned": {"lidar3d_turned": math.radians(5.0)},
+    "lidar3d_drops": lidar3d(air=0.13),
+    "map_outdated": {"map_match": replace(MATCH, gone=9)},
     "chassis_silent": {"chassis_age_s": 0.25},
     "emergency_stop": {"chassis": replace(CHASSIS, state=VehicleState.EMERGENCY_STOP)},
     "chassis_fault": {"chassis": replace(CHASSIS, driver_faults=(0, 4, 0, 0))},
@@ -130,3 +153,21 @@ def test_a_robot_that_drives_on_the_3d_map_waits_as_soon_as_others_contradict_it
     assert names(disputed) == {"map_unsure"}
     assert names(replace(on_map, pose_std=0.3)) == {"map_unsure"}
     assert names(replace(on_map, map_age_s=math.nan)) == {"map_unsure"}
+
+
+@pytest.mark.parametrize(
+    ("condition", "words"),
+    [
+        ({"roll": -math.radians(5.0)}, "leans 5 degrees to the right"),
+        ({"roll": math.radians(5.0)}, "leans 5 degrees to the left"),
+        ({"pitch": -math.radians(4.0)}, "leans 4 degrees to the front"),
+        ({"pitch": math.radians(4.0)}, "leans 4 degrees to the back"),
+    ],
+)
+def test_a_leaning_3d_lidar_is_told_with_its_side(condition: dict[str, float], words: str) -> None:
+    events = active_events(replace(WELL, **lidar3d(**condition)), PARAMS)
+    assert [words in event.text(replace(WELL, **lidar3d(**condition))) for event in events] == [True]
+
+
+def test_a_few_uprights_that_are_gone_make_no_map_old() -> None:
+    assert not active_events(replace(WELL, map_match=replace(MATCH, passed=8, gone=3)), PARAMS)
