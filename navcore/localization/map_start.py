@@ -1,0 +1,192 @@
+"""From not knowing the place to knowing it: a coarse look over the region, places laid onto, and one that leads.
+
+A place is taken only where it fits clearly better than every other that may be meant. Told nothing, that is every
+place on the map, and a clear lead is more: of two places that are both wrong, as on another block's map, one fits
+better than the other too. Work is divided over clouds, so that each takes about a tenth of a second.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from navcore.geometry.se2 import SE2
+from navcore.geometry.se3 import SE3
+from navcore.localization.contest import Contest, ContestParams, Hypothesis
+from navcore.localization.ndt.birds_eye import BirdsEye
+from navcore.localization.ndt.ndt_matcher import NdtMatcher, NdtMatcherParams
+from navcore.localization.ndt.place_search import PlaceSearch, PlaceSearchParams, Region
+from navcore.localization.ndt.registration import Registration
+from navcore.localization.ndt.start_search import StartSearchParams
+from navcore.maps.ndt.ndt_map import NdtMap
+
+Floats = NDArray[np.float64]
+NS = 1e-9
+_SETTLING = StartSearchParams(
+    reach=0.4,
+    step=0.2,
+    turn=math.radians(3.0),
+    turn_step=math.radians(1.5),
+    grid=1,
+    points=300,
+    steepness=0.1,
+    doubt=0.0,
+)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MapStartParams:
+    """Parameters of `MapStart`.
+
+    Attributes:
+        search: the coarse look. settling: from there to where a cloud lies. contest: among those places.
+        at_once: places that are settled on one cloud.
+        beyond: places so far beside a region are looked at too, m: a row further on may fit better.
+        looks: clouds before a place is taken, at least 1.
+        lead: over every other place in the region, see `Contest.lead`. lead_beyond: by which one beside it, or one
+            without any region, must be better.
+        again_s, again_step: without a lead, it is looked again after so long, s, or a step, m.
+        whole_again: after driving so far all is searched anew, m. nowhere_s: after so long where nothing fits, s.
+    """
+
+    search: PlaceSearchParams = field(default_factory=PlaceSearchParams)
+    settling: NdtMatcherParams = field(default_factory=lambda: NdtMatcherParams(search=_SETTLING))
+    contest: ContestParams = field(default_factory=ContestParams)
+    at_once: int = 8
+    beyond: float = 4.5
+    looks: int = 3
+    lead: float = 3.0
+    lead_beyond: float = 8.0
+    again_s: float = 2.0
+    again_step: float = 0.5
+    whole_again: float = 15.0
+    nowhere_s: float = 5.0
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class StartLook:
+    """What one cloud brought: the place, or why there is none; `alike` places where several fit as well."""
+
+    found: Registration | None
+    reason: str
+    alike: int = 0
+
+
+class MapStart:
+    """One cloud after another in; one search at a time."""
+
+    def __init__(self, ndt_map: NdtMap, matcher: NdtMatcher, params: MapStartParams = MapStartParams()) -> None:
+        self._map, self._p, self._eye = ndt_map, params, BirdsEye.of(ndt_map)
+        self._settler, self._matcher = NdtMatcher(ndt_map, params.settling), matcher
+        self.begin_anew()
+
+    def begin_anew(self) -> None:
+        """Forget what was found so far."""
+        self._search: PlaceSearch | None = None
+        self._unsettled: list[SE3] = []
+        self._contest: Contest | None = None
+        self._began = self._looked = SE3.identity()
+        self._looked_ns = self._looks = 0
+        self._told = StartLook(None, "the map is being searched")
+
+    def look(self, points: Floats, stamp_ns: int, T_odom_base: SE3, region: Region | None) -> StartLook:
+        """One cloud (N, 3) in `base_link`, thinned, and odometry at its capture."""
+        if self._eye is None:
+            return StartLook(None, "the 3D map is empty: make one from a run, on the Runs page")
+        if self._search is None and self._contest is None:
+            self._begin(self._eye, points, T_odom_base, region)
+        if self._search is not None:
+            return self._searched(self._eye, points, stamp_ns, T_odom_base)
+        return self._contested(points, stamp_ns, T_odom_base, region)
+
+    def _begin(self, eye: BirdsEye, points: Floats, T_odom_base: SE3, region: Region | None) -> None:
+        wider = None if region is None else replace(region, reach=region.reach + self._p.beyond)
+        self._search = PlaceSearch(eye, _level(points, T_odom_base), wider, self._p.search)
+        self._contest = Contest(self._map, self._matcher, self._p.contest)
+        self._began, self._looks = T_odom_base, 0
+
+    def _searched(self, eye: BirdsEye, points: Floats, stamp_ns: int, T_odom_base: SE3) -> StartLook:
+        """The coarse look goes on, and then places are settled."""
+        assert self._search is not None
+        assert self._contest is not None
+        if not self._search.done:
+            self._search.step()
+            if self._search.done:
+                self._unsettled = [_tie(eye, at, self._began) for at in self._search.places()]
+            return StartLook(None, "the map is being searched")
+        for tie in self._unsettled[: self._p.at_once]:
+            self._contest.enter(self._settler.match(points, tie @ T_odom_base), T_odom_base)
+        del self._unsettled[: self._p.at_once]
+        if not self._unsettled:
+            self._search, self._looked_ns = None, stamp_ns
+            self._contest.thin_out()
+        return StartLook(None, "the map is being searched")
+
+    def _contested(self, points: Floats, stamp_ns: int, T_odom_base: SE3, region: Region | None) -> StartLook:
+        assert self._contest is not None
+        if self._is_stale(stamp_ns, T_odom_base):
+            self.begin_anew()
+            return self._told
+        if not self._is_due(stamp_ns, T_odom_base):
+            return self._told
+        self._looked, self._looked_ns, self._looks = T_odom_base, stamp_ns, self._looks + 1
+        self._contest.look(points, T_odom_base)
+        self._told = self._judged(self._contest, region)
+        return self._told
+
+    def _is_due(self, stamp_ns: int, T_odom_base: SE3) -> bool:
+        """The first looks at once; then only what may be new."""
+        waited = (stamp_ns - self._looked_ns) * NS >= self._p.again_s
+        return self._looks < self._p.looks or waited or _way(self._looked, T_odom_base) >= self._p.again_step
+
+    def _is_stale(self, stamp_ns: int, T_odom_base: SE3) -> bool:
+        nowhere = not self._contest or not self._contest.places
+        waited = (stamp_ns - self._looked_ns) * NS >= self._p.nowhere_s
+        return _way(self._began, T_odom_base) >= self._p.whole_again or (nowhere and waited)
+
+    def _judged(self, contest: Contest, region: Region | None) -> StartLook:
+        inside = [place for place in contest.places if region is None or region.holds(_at(place))]
+        if not inside:
+            return StartLook(None, "the cloud fits nowhere on the 3D map" + ("" if region is None else " near there"))
+        if self._looks < self._p.looks:
+            return StartLook(None, "the map is being searched")
+        first, others = inside[0], [place for place in contest.places if place is not inside[0]]
+        needed = self._p.lead_beyond if region is None else self._p.lead
+        alike = sum(contest.lead(first, other) < needed for other in others if other in inside)
+        better = [other for other in others if contest.lead(other, first) >= self._p.lead_beyond]
+        if better:
+            away = _apart(_at(better[0]), _at(first))
+            return StartLook(
+                None, f"the cloud fits better {away:.0f} m from there: look again where the robot stands"
+            )
+        if alike:
+            return StartLook(None, f"{alike + 1} places look the same", alike + 1)
+        return StartLook(first.found, "")
+
+
+def _level(points: Floats, T_odom_base: SE3) -> Floats:
+    """In the robot's frame without its lean."""
+    roll, pitch, _ = T_odom_base.rpy()
+    return SE3.from_rpy((0.0, 0.0, 0.0), roll, pitch, 0.0).apply(points)
+
+
+def _tie(eye: BirdsEye, at: SE2, T_odom_base: SE3) -> SE3:
+    """`T_map_odom` that puts the robot there, on the ground, with the lean it has."""
+    roll, pitch, _ = T_odom_base.rpy()
+    place = SE3.from_rpy((at.x, at.y, eye.height(at.x, at.y)), roll, pitch, at.yaw)
+    return place @ T_odom_base.inverse()
+
+
+def _at(place: Hypothesis) -> SE2:
+    return place.found.T_target_source.se2()
+
+
+def _apart(a: SE2, b: SE2) -> float:
+    return math.hypot(a.x - b.x, a.y - b.y)
+
+
+def _way(a: SE3, b: SE3) -> float:
+    return math.hypot(a.t[0] - b.t[0], a.t[1] - b.t[1])
