@@ -114,9 +114,7 @@ class Contest:
         numbers = np.unique(patches, axis=0, return_inverse=True)[1].ravel()
         cells = self._map.grids[-1].cells()
         poses = (place.found.T_target_source for place in self.places)
-        weights = (
-            point_weights(points, np.ascontiguousarray(T.R), T.t, cells, self._p.steepness) for T in poses
-        )
+        weights = (point_weights(points, np.ascontiguousarray(T.R), T.t, cells, self._p.steepness) for T in poses)
         return [np.asarray(np.bincount(numbers, w), dtype=np.float64) for w in weights]
 
     def _drop_twins(self) -> None:

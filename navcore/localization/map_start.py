@@ -46,8 +46,9 @@ class MapStartParams:
         at_once: places that are settled on one cloud.
         beyond: places so far beside a region are looked at too, m: a row further on may fit better.
         looks: clouds before a place is taken, at least 1.
-        lead: over every other place in the region, see `Contest.lead`. lead_beyond: by which one beside it, or one
-            without any region, must be better.
+        lead: over every other place in the region, see `Contest.lead`; by as much one beside it is better.
+        lead_anywhere: over every other place on the map where no region is told. Of two wrong places on another
+            block's map one led by up to 6.7.
         again_s, again_step: without a lead, it is looked again after so long, s, or a step, m.
         whole_again: after driving so far all is searched anew, m. nowhere_s: after so long where nothing fits, s.
     """
@@ -59,7 +60,7 @@ class MapStartParams:
     beyond: float = 4.5
     looks: int = 3
     lead: float = 3.0
-    lead_beyond: float = 8.0
+    lead_anywhere: float = 8.0
     again_s: float = 2.0
     again_step: float = 0.5
     whole_again: float = 15.0
@@ -154,9 +155,9 @@ class MapStart:
         if self._looks < self._p.looks:
             return StartLook(None, "the map is being searched")
         first, others = inside[0], [place for place in contest.places if place is not inside[0]]
-        needed = self._p.lead_beyond if region is None else self._p.lead
+        needed = self._p.lead_anywhere if region is None else self._p.lead
         alike = sum(contest.lead(first, other) < needed for other in others if other in inside)
-        better = [other for other in others if contest.lead(other, first) >= self._p.lead_beyond]
+        better = [other for other in others if contest.lead(other, first) >= self._p.lead]
         if better:
             away = _apart(_at(better[0]), _at(first))
             return StartLook(

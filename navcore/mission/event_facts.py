@@ -68,7 +68,8 @@ class EventFacts:
     on the narrower side of a seen one that is near; `askew`: how far the camera leans to the right against the IMU,
     and its 1-sigma, rad; `mount`: how else it is mounted; `agreement`: whether it agrees with the 2D LiDAR; `halt`:
     what the operator is told where the plan lets the robot wait; `map_reason`: why the 3D map does not tell the
-    place, empty while it does, and `map_disputed`: it would, but other witnesses contradict it.
+    place, empty while it does, and `map_disputed`: it would, but other witnesses contradict it; `map_in_use`: there
+    is one, and a 3D LiDAR that reports.
     """
 
     state: RunState
@@ -104,3 +105,4 @@ class EventFacts:
     map_age_s: float | None = None
     map_reason: str = ""
     map_disputed: bool = False
+    map_in_use: bool = False

@@ -21,7 +21,14 @@ from navcore.mission.camera_events import (
     turned_words,
 )
 from navcore.mission.event_facts import EventFacts, EventParams
-from navcore.mission.map_events import disputed_words, is_map_disputed, is_map_unsure, unsure_words
+from navcore.mission.map_events import (
+    disputed_words,
+    is_map_disputed,
+    is_map_unsure,
+    is_place_unknown,
+    unknown_words,
+    unsure_words,
+)
 from navcore.mission.state_machine import MOVING, UNDER_WAY, Effect
 
 
@@ -210,6 +217,7 @@ EVENTS: tuple[Event, ...] = (
     ),
     _event("map_unsure", "HOLD", lambda f, p: _moving(f) and is_map_unsure(f, p), unsure_words),
     _event("map_disputed", "WARN", lambda f, _: f.state in UNDER_WAY and is_map_disputed(f), disputed_words),
+    _event("place_unknown", "WARN", is_place_unknown, unknown_words),
     _event(
         "held_too_long", "STOP",
         lambda f, p: f.state is RunState.HOLDING

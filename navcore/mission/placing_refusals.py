@@ -6,10 +6,8 @@ import math
 
 from navcore.messages import FixQuality, MatchState, ToldPlace
 from navcore.mission.evidence import NS
+from navcore.mission.map_evidence import FRESH_S
 from navcore.mission.senses import Senses
-
-# Older than this neither the LiDAR nor a fix says anything of now, s.
-FRESH_S = 2.0
 
 
 def placing_refusals(

@@ -87,6 +87,7 @@ def event_facts(
         map_age_s=s.on_map.age_s(now_ns),
         map_reason=s.on_map.reason,
         map_disputed=s.on_map.disputed,
+        map_in_use=s.on_map.in_use(now_ns),
     )
 
 

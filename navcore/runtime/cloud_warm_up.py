@@ -14,6 +14,7 @@ from navcore.sim.orchard import Season
 from navcore.sim.pear_block import BlockSize, tuning_block
 
 TURN_NS = 100_000_000
+CLOUDS = 10  # a search, a contest, and the way from one cloud to the next
 
 
 def warm_up() -> None:
@@ -27,7 +28,7 @@ def warm_up() -> None:
     ndt_map = NdtMap()
     ndt_map.add(T_map_base.apply(points))
     localizer, motion = MapLocalizer(ndt_map), standing(x, y)
-    for k in range(2):
+    for k in range(CLOUDS):
         localizer.process(points, k * TURN_NS, motion)
 
 

@@ -15,17 +15,21 @@ import { TrunkLayer } from "../map/TrunkLayer";
 import { firstExtent } from "../map/fit";
 import { useSiteFrame } from "../map/useSiteFrame";
 import { isUnderWay } from "../ui/words";
+import { PlaceLayer } from "./PlaceLayer";
 import css from "./drive.module.css";
 import { useDriveToTrunk } from "./useDriveToTrunk";
+import type { Placing } from "./usePlacing";
 
 interface Props {
   document: SiteDocument;
   robot: Robot;
   plan: MissionPlan | null;
+  /** While the robot asks where it stands. */
+  placing: Placing | null;
   onMission: (id: string) => void;
 }
 
-export function DriveMap({ document, robot, plan, onMission }: Props) {
+export function DriveMap({ document, robot, plan, placing, onMission }: Props) {
   const toTrunk = useDriveToTrunk(document.id, onMission);
   const underWay = isUnderWay(useTopic("nav/status")?.state);
   const frame = useSiteFrame(document.site.datum);
@@ -39,7 +43,11 @@ export function DriveMap({ document, robot, plan, onMission }: Props) {
       <LiveDrivenLayer frame={frame} />
       <LiveRobotLayer frame={frame} vehicle={robot.vehicle} follow={follow} />
       <LiveGhostLayer frame={frame} />
-      <TrunkLayer siteId={document.id} frame={frame} onDrive={underWay ? undefined : toTrunk} />
+      {placing ? (
+        <PlaceLayer frame={frame} place={placing.place} onPress={placing.press} onTurn={placing.set} />
+      ) : (
+        <TrunkLayer siteId={document.id} frame={frame} onDrive={underWay ? undefined : toTrunk} />
+      )}
       <FitTo extent={extent} subject={document.id} />
       <FollowButton follow={follow} onChange={setFollow} />
     </MapView>
