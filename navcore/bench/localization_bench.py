@@ -2,7 +2,8 @@
 
 The map is made of a drive in winter by `MapMaker`; other drives follow in winter, spring and full leaf. Blocks are
 scoring blocks (odd seeds); parameters were set on tuning blocks. A wrong place is a recorded drive whose matches lie
-aside from one moment on: scored is how soon the witnesses (`localization.map_watch`) take the trust from them.
+aside from one moment on: scored is how soon the witnesses (`localization.map_watch`) take the trust from them. Then
+robots are switched on anywhere in the blocks without GNSS, told roughly where they stand, or nothing.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ import numpy as np
 from navcore.bench.block_run import block_run
 from navcore.bench.figure import Figure, share
 from navcore.bench.localization_drive import Placed, localized
+from navcore.bench.restart_figures import Restarts, restart_figures, restarts
 from navcore.geometry.se2 import SE2
 from navcore.localization.map_watch import MapWatch
 from navcore.mapping.lidar3d.map_maker import MapMaker
@@ -44,7 +46,7 @@ class LocalizationBenchParams:
 
     Attributes:
         blocks: each mapped once. size: of a block. rows: that are driven. drives: in each season. wrong: places put
-            wrong in all.
+            wrong in all. restarts: robots switched on in each season and block.
     """
 
     blocks: int = 2
@@ -52,13 +54,15 @@ class LocalizationBenchParams:
     rows: tuple[int, ...] = (0, 1)
     drives: int = 1
     wrong: int = 200
+    restarts: int = 12
 
 
-QUICK = LocalizationBenchParams(blocks=1, size=BlockSize(alleys=2, length=24.0), wrong=50)
+QUICK = LocalizationBenchParams(blocks=1, size=BlockSize(alleys=2, length=24.0), wrong=50, restarts=4)
 
 
 def run_bench(params: LocalizationBenchParams, tell: Tell) -> tuple[Figure, ...]:
     """All figures."""
+    again: dict[Season, list[Restarts]] = {season: [] for season in SEASONS}
     driven: dict[Season, list[tuple[PearBlock, list[Placed]]]] = {season: [] for season in SEASONS}
     for number in range(params.blocks):
         block = scoring_block(number, params.size)
@@ -69,7 +73,10 @@ def run_bench(params: LocalizationBenchParams, tell: Tell) -> tuple[Figure, ...]
                 tell(f"block {block.seed}, {SEASONS[season]}, drive {drive + 1}")
                 case = BlockDriveParams(seed=_DRIVE_SEED + drive, season=season, rows=params.rows)
                 driven[season].append((block, list(localized(block, case, ndt_map))))
+            tell(f"block {block.seed}, {SEASONS[season]}, restarts")
+            again[season] += restarts(block, season, ndt_map, params.restarts, tell)
     figures = [f for season, drives in driven.items() for f in season_figures(SEASONS[season], drives, params.rows)]
+    figures += [f for season, found in again.items() for f in restart_figures(SEASONS[season], found)]
     return (*figures, *trust_figures([placed for drives in driven.values() for _, placed in drives], params.wrong))
 
 

@@ -31,7 +31,7 @@ class ContestParams:
         steepness: of the weights on the finest cells, see `match_kernels`.
         apart, apart_turn: nearer to each other two places are one, m and rad.
         fair: share of the leader's score below which a place is out.
-        most: places, the best.
+        most: places that may be meant, the best. beside: of others, which only show that those are wrong.
         standpoints: so many looks count, at least 1; each so far from the last that it sees anew: `step`, m. From one
             place more looks tell nothing new; and what two wrong places differ by may last along a whole row.
     """
@@ -42,6 +42,7 @@ class ContestParams:
     apart_turn: float = 0.2
     fair: float = 0.6
     most: int = 8
+    beside: int = 5
     standpoints: int = 2
     step: float = 0.5
 
@@ -51,11 +52,13 @@ class Hypothesis:
     """One place, as a tie of odometry to the map.
 
     Attributes:
-        found: how the newest cloud lies there. seen: per standpoint, the sums of weights of each patch.
+        found: how the newest cloud lies there. meant: it may be the place by what was told.
+        seen: per standpoint, the sums of weights of each patch.
     """
 
     T_map_odom: SE3
     found: Registration
+    meant: bool
     seen: list[Floats] = field(default_factory=list)
 
     @property
@@ -74,22 +77,20 @@ class Contest:
         self.places: list[Hypothesis] = []
         self._stood: SE3 | None = None
 
-    def enter(self, found: Registration, T_odom_base: SE3) -> None:
+    def enter(self, found: Registration, T_odom_base: SE3, *, meant: bool) -> None:
         """A place joins."""
         if found.reason is None:
-            self.places.append(Hypothesis(found.T_target_source @ T_odom_base.inverse(), found))
+            self.places.append(Hypothesis(found.T_target_source @ T_odom_base.inverse(), found, meant))
 
     def thin_out(self) -> None:
         """Places that are the same become one; the best stay."""
         ranked, self.places = sorted(self.places, key=lambda place: -place.found.score), []
+        room = {True: self._p.most, False: self._p.beside}
         for place in ranked:
             fair = not self.places or place.found.score >= self._p.fair * self.places[0].found.score
-            if (
-                fair
-                and len(self.places) < self._p.most
-                and not any(self._same(place, other) for other in self.places)
-            ):
+            if fair and room[place.meant] and not any(self._same(place, other) for other in self.places):
                 self.places.append(place)
+                room[place.meant] -= 1
 
     def look(self, points: Floats, T_odom_base: SE3) -> None:
         """Lay a cloud (N, 3) onto every place."""

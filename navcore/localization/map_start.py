@@ -25,6 +25,7 @@ from navcore.maps.ndt.ndt_map import NdtMap
 
 Floats = NDArray[np.float64]
 NS = 1e-9
+SEARCHED = "the map is being searched"
 _SETTLING = StartSearchParams(
     reach=0.4,
     step=0.2,
@@ -44,7 +45,7 @@ class MapStartParams:
     Attributes:
         search: the coarse look. settling: from there to where a cloud lies. contest: among those places.
         at_once: places that are settled on one cloud.
-        beyond: places so far beside a region are looked at too, m: a row further on may fit better.
+        beyond: places so far beside a region are looked at too, m: the next row on may fit better.
         looks: clouds before a place is taken, at least 1.
         lead: over every other place in the region, see `Contest.lead`; by as much one beside it is better.
         lead_anywhere: over every other place on the map where no region is told. Of two wrong places on another
@@ -57,7 +58,7 @@ class MapStartParams:
     settling: NdtMatcherParams = field(default_factory=lambda: NdtMatcherParams(search=_SETTLING))
     contest: ContestParams = field(default_factory=ContestParams)
     at_once: int = 8
-    beyond: float = 4.5
+    beyond: float = 7.0
     looks: int = 3
     lead: float = 3.0
     lead_anywhere: float = 8.0
@@ -90,52 +91,54 @@ class MapStart:
         self._unsettled: list[SE3] = []
         self._contest: Contest | None = None
         self._began = self._looked = SE3.identity()
-        self._looked_ns = self._looks = 0
-        self._told = StartLook(None, "the map is being searched")
+        self._began_ns = self._looked_ns = self._looks = 0
+        self._told = StartLook(None, SEARCHED)
 
     def look(self, points: Floats, stamp_ns: int, T_odom_base: SE3, region: Region | None) -> StartLook:
         """One cloud (N, 3) in `base_link`, thinned, and odometry at its capture."""
         if self._eye is None:
             return StartLook(None, "the 3D map is empty: make one from a run, on the Runs page")
-        if self._search is None and self._contest is None:
-            self._begin(self._eye, points, T_odom_base, region)
+        if self._contest is None:
+            self._search = self._begin(self._eye, points, stamp_ns, T_odom_base, region)
+            self._contest = Contest(self._map, self._matcher, self._p.contest)
         if self._search is not None:
-            return self._searched(self._eye, points, stamp_ns, T_odom_base)
-        return self._contested(points, stamp_ns, T_odom_base, region)
+            self._go_on(self._search, self._contest, points, T_odom_base, region)
+            return StartLook(None, SEARCHED)
+        return self._contested(self._contest, points, stamp_ns, T_odom_base, region)
 
-    def _begin(self, eye: BirdsEye, points: Floats, T_odom_base: SE3, region: Region | None) -> None:
+    def _begin(
+        self, eye: BirdsEye, points: Floats, stamp_ns: int, T_odom_base: SE3, region: Region | None
+    ) -> PlaceSearch:  # fmt: skip
+        self._began, self._began_ns, self._looks = T_odom_base, stamp_ns, 0
         wider = None if region is None else replace(region, reach=region.reach + self._p.beyond)
-        self._search = PlaceSearch(eye, _level(points, T_odom_base), wider, self._p.search)
-        self._contest = Contest(self._map, self._matcher, self._p.contest)
-        self._began, self._looks = T_odom_base, 0
+        return PlaceSearch(eye, _level(points, T_odom_base), wider, self._p.search)
 
-    def _searched(self, eye: BirdsEye, points: Floats, stamp_ns: int, T_odom_base: SE3) -> StartLook:
+    def _go_on(
+        self, search: PlaceSearch, contest: Contest, points: Floats, T_odom_base: SE3, region: Region | None
+    ) -> None:  # fmt: skip
         """The coarse look goes on, and then places are settled."""
-        assert self._search is not None
-        assert self._contest is not None
-        if not self._search.done:
-            self._search.step()
-            if self._search.done:
-                self._unsettled = [_tie(eye, at, self._began) for at in self._search.places()]
-            return StartLook(None, "the map is being searched")
+        if not search.done:
+            search.step()
+            self._unsettled = [_tie(search.eye, at, self._began) for at in search.places()] if search.done else []
+            return
         for tie in self._unsettled[: self._p.at_once]:
-            self._contest.enter(self._settler.match(points, tie @ T_odom_base), T_odom_base)
+            found = self._settler.match(points, tie @ T_odom_base)
+            meant = region is None or region.holds(found.T_target_source.se2())
+            contest.enter(found, T_odom_base, meant=meant)
         del self._unsettled[: self._p.at_once]
         if not self._unsettled:
-            self._search, self._looked_ns = None, stamp_ns
-            self._contest.thin_out()
-        return StartLook(None, "the map is being searched")
+            self._search = None
+            contest.thin_out()
 
-    def _contested(self, points: Floats, stamp_ns: int, T_odom_base: SE3, region: Region | None) -> StartLook:
-        assert self._contest is not None
-        if self._is_stale(stamp_ns, T_odom_base):
+    def _contested(
+        self, contest: Contest, points: Floats, stamp_ns: int, T_odom_base: SE3, region: Region | None
+    ) -> StartLook:  # fmt: skip
+        if self._is_stale(contest, stamp_ns, T_odom_base):
             self.begin_anew()
-            return self._told
-        if not self._is_due(stamp_ns, T_odom_base):
-            return self._told
-        self._looked, self._looked_ns, self._looks = T_odom_base, stamp_ns, self._looks + 1
-        self._contest.look(points, T_odom_base)
-        self._told = self._judged(self._contest, region)
+        elif self._is_due(stamp_ns, T_odom_base):
+            self._looked, self._looked_ns, self._looks = T_odom_base, stamp_ns, self._looks + 1
+            contest.look(points, T_odom_base)
+            self._told = self._judged(contest, region)
         return self._told
 
     def _is_due(self, stamp_ns: int, T_odom_base: SE3) -> bool:
@@ -143,29 +146,35 @@ class MapStart:
         waited = (stamp_ns - self._looked_ns) * NS >= self._p.again_s
         return self._looks < self._p.looks or waited or _way(self._looked, T_odom_base) >= self._p.again_step
 
-    def _is_stale(self, stamp_ns: int, T_odom_base: SE3) -> bool:
-        nowhere = not self._contest or not self._contest.places
-        waited = (stamp_ns - self._looked_ns) * NS >= self._p.nowhere_s
-        return _way(self._began, T_odom_base) >= self._p.whole_again or (nowhere and waited)
+    def _is_stale(self, contest: Contest, stamp_ns: int, T_odom_base: SE3) -> bool:
+        """Too far on for what was searched, or nothing of it is left."""
+        over = (stamp_ns - self._began_ns) * NS >= self._p.nowhere_s and not contest.places
+        return over or _way(self._began, T_odom_base) >= self._p.whole_again
 
     def _judged(self, contest: Contest, region: Region | None) -> StartLook:
         inside = [place for place in contest.places if region is None or region.holds(_at(place))]
+        if self._looks < self._p.looks and contest.places:
+            return StartLook(None, SEARCHED)
         if not inside:
-            return StartLook(None, "the cloud fits nowhere on the 3D map" + ("" if region is None else " near there"))
-        if self._looks < self._p.looks:
-            return StartLook(None, "the map is being searched")
-        first, others = inside[0], [place for place in contest.places if place is not inside[0]]
-        needed = self._p.lead_anywhere if region is None else self._p.lead
-        alike = sum(contest.lead(first, other) < needed for other in others if other in inside)
-        better = [other for other in others if contest.lead(other, first) >= self._p.lead]
+            return StartLook(None, _nowhere(contest, region))
+        first, needed = inside[0], self._p.lead_anywhere if region is None else self._p.lead
+        better = [other for other in contest.places if contest.lead(other, first) >= self._p.lead]
         if better:
-            away = _apart(_at(better[0]), _at(first))
-            return StartLook(
-                None, f"the cloud fits better {away:.0f} m from there: look again where the robot stands"
-            )
-        if alike:
-            return StartLook(None, f"{alike + 1} places look the same", alike + 1)
+            return StartLook(None, _elsewhere(_apart(_at(better[0]), _at(first))))
+        alike = sum(contest.lead(first, other) < needed for other in inside)
+        if alike > 1:  # itself is one of them
+            return StartLook(None, f"{alike} places look the same", alike)
         return StartLook(first.found, "")
+
+
+def _nowhere(contest: Contest, region: Region | None) -> str:
+    if region is not None and contest.places:
+        return _elsewhere(_apart(_at(contest.places[0]), region.at))
+    return "the cloud fits nowhere on the 3D map" + ("" if region is None else " near there")
+
+
+def _elsewhere(away: float) -> str:
+    return f"the cloud fits better {away:.0f} m from there: look again where the robot stands"
 
 
 def _level(points: Floats, T_odom_base: SE3) -> Floats:

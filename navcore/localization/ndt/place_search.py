@@ -65,6 +65,9 @@ class PlaceSearchParams:
 class PlaceSearch:
     """Call `step` until it is done; the work is divided so that each takes about the same time.
 
+    Attributes:
+        eye: the part of the map that is looked at.
+
     Args:
         eye: the map from above.
         points: (N, 3) in the robot's frame made level, z up from the ground, m.
@@ -80,17 +83,17 @@ class PlaceSearch:
     ) -> None:
         self._p, self._region = params, region
         near = eye if region is None else eye.near(region.at.x, region.at.y, region.reach + params.reach)
-        self._eye = near or BirdsEye(
+        self.eye = near or BirdsEye(
             size=eye.size, corner=eye.corner, upright=np.zeros((1, 1)), ground=np.zeros((1, 1))
         )
         seen = (points[:, 2] > params.low) & (points[:, 2] < params.high)
         self._points = points[seen & (np.hypot(points[:, 0], points[:, 1]) < params.reach), :2]
         self._half = math.ceil(params.reach / eye.size) + 1
-        self._shape = tuple(next_fast_len(n + 2 * self._half, real=True) for n in self._eye.upright.shape)
-        self._map = rfft2(self._eye.upright, self._shape)
+        self._shape = tuple(next_fast_len(n + 2 * self._half, real=True) for n in self.eye.upright.shape)
+        self._map = rfft2(self.eye.upright, self._shape)
         self._headings = self._all_headings()
         self._next = 0
-        self._best = np.zeros((params.sectors, *self._eye.upright.shape), dtype=np.float32)
+        self._best = np.zeros((params.sectors, *self.eye.upright.shape), dtype=np.float32)
         self._by = np.zeros(self._best.shape, dtype=np.int16)
 
     @property
@@ -112,7 +115,7 @@ class PlaceSearch:
         best = np.argsort(-peaks, axis=None, kind="stable")[: self._p.most]
         least = self._p.share * float(peaks.max(initial=0.0))
         where = np.unravel_index(best, peaks.shape)
-        size, (x, y) = self._eye.size, self._eye.corner
+        size, (x, y) = self.eye.size, self.eye.corner
         return [
             SE2(x + (i + 0.5) * size, y + (j + 0.5) * size, wrap(float(self._headings[self._by[k, i, j]])))
             for k, i, j in zip(*where, strict=True)
@@ -130,12 +133,12 @@ class PlaceSearch:
         """A pixel's worth is the mean of the map under the cloud's points if the robot stood in it."""
         c, s, half = math.cos(heading), math.sin(heading), self._half
         turned = self._points @ np.array(((c, s), (-s, c)))
-        i, j = np.floor(turned / self._eye.size + 0.5).astype(np.int64).T + half
+        i, j = np.floor(turned / self.eye.size + 0.5).astype(np.int64).T + half
         seen = np.zeros((2 * half + 1, 2 * half + 1))
         np.add.at(seen, (i, j), 1.0)
         seen = np.minimum(seen, self._p.full)
         met = irfft2(self._map * np.conj(rfft2(seen, self._shape)), self._shape)
-        rows, columns = self._eye.upright.shape
+        rows, columns = self.eye.upright.shape
         worth = np.roll(met, (half, half), (0, 1))[:rows, :columns] / max(float(seen.sum()), 1.0)
         sector = int(heading % (2.0 * math.pi) / (2.0 * math.pi) * self._p.sectors) % self._p.sectors
         better = worth > self._best[sector]
@@ -143,9 +146,9 @@ class PlaceSearch:
         self._by[sector][better] = number
 
     def _inside(self) -> NDArray[np.bool_]:
-        rows, columns = self._eye.upright.shape
+        rows, columns = self.eye.upright.shape
         if self._region is None:
             return np.ones((rows, columns), dtype=bool)
-        x = self._eye.corner[0] + (np.arange(rows) + 0.5) * self._eye.size - self._region.at.x
-        y = self._eye.corner[1] + (np.arange(columns) + 0.5) * self._eye.size - self._region.at.y
-        return np.asarray(np.hypot(x[:, None], y[None, :]) <= self._region.reach + self._eye.size)
+        x = self.eye.corner[0] + (np.arange(rows) + 0.5) * self.eye.size - self._region.at.x
+        y = self.eye.corner[1] + (np.arange(columns) + 0.5) * self.eye.size - self._region.at.y
+        return np.asarray(np.hypot(x[:, None], y[None, :]) <= self._region.reach + self.eye.size)
