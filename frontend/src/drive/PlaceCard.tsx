@@ -1,4 +1,4 @@
-import { ActionIcon, Button, Paper } from "@mantine/core";
+import { ActionIcon, Button } from "@mantine/core";
 import { IconMapPin, IconRotate2, IconRotateClockwise2 } from "@tabler/icons-react";
 
 import { useTopic } from "../live/hooks";
@@ -10,10 +10,12 @@ import type { Placing } from "./usePlacing";
 export function PlaceCard({ placing, onMap, onShowMap }: { placing: Placing; onMap: boolean; onShowMap: () => void }) {
   const { place, turn, clear, send, sending } = placing;
   return (
-    <Paper className={css.card} shadow="md" p="md" component="section" aria-label="Where the robot stands">
-      <h2>The robot does not know where it stands</h2>
-      <p>{onMap ? "Press where it is on the map, and turn the arrow to where it looks." : "Open the map and press where it is."}</p>
-      <Search />
+    <section className={css.card} aria-label="Where the robot stands">
+      <div className={css.words}>
+        <h2>The robot does not know where it stands</h2>
+        <p>{onMap ? "Press where it is and turn the arrow to where it looks, or wait for a GNSS fix." : "Open the map and press where it is, or wait for a GNSS fix."}</p>
+        <Search />
+      </div>
       {!onMap && (
         <Button size="lg" onClick={onShowMap}>
           Show the map
@@ -35,7 +37,7 @@ export function PlaceCard({ placing, onMap, onShowMap }: { placing: Placing; onM
           </Button>
         </div>
       )}
-    </Paper>
+    </section>
   );
 }
 
