@@ -15,6 +15,7 @@ import { TrunkLayer } from "../map/TrunkLayer";
 import { firstExtent } from "../map/fit";
 import { useSiteFrame } from "../map/useSiteFrame";
 import { isUnderWay } from "../ui/words";
+import { PlaceButton } from "./PlaceButton";
 import { PlaceLayer } from "./PlaceLayer";
 import css from "./drive.module.css";
 import { useDriveToTrunk } from "./useDriveToTrunk";
@@ -26,10 +27,12 @@ interface Props {
   plan: MissionPlan | null;
   /** While the robot asks where it stands. */
   placing: Placing | null;
+  /** Lets an operator say it unasked, where he may. */
+  onPlace: (() => void) | null;
   onMission: (id: string) => void;
 }
 
-export function DriveMap({ document, robot, plan, placing, onMission }: Props) {
+export function DriveMap({ document, robot, plan, placing, onPlace, onMission }: Props) {
   const toTrunk = useDriveToTrunk(document.id, onMission);
   const underWay = isUnderWay(useTopic("nav/status")?.state);
   const frame = useSiteFrame(document.site.datum);
@@ -49,6 +52,7 @@ export function DriveMap({ document, robot, plan, placing, onMission }: Props) {
         <TrunkLayer siteId={document.id} frame={frame} onDrive={underWay ? undefined : toTrunk} />
       )}
       <FitTo extent={extent} subject={document.id} />
+      {onPlace && <PlaceButton onPress={onPlace} />}
       <FollowButton follow={follow} onChange={setFollow} />
     </MapView>
   );

@@ -37,7 +37,7 @@ export function DriveView({ robot, document }: { robot: Robot; document: SiteDoc
   const mission = missions.find(({ id }) => id === missionId) ?? missions[0] ?? null;
   const preview = useQuery(previewQuery(document.id, mission?.mission ?? null, document.version));
   const plan = useShownPlan(preview.data?.plan ?? null);
-  const placing = usePlacing(document);
+  const { placing, open } = usePlacing(document);
   useRecordedStart();
   const view = chosen === "camera" && !narrow ? "map" : chosen;
   return (
@@ -45,7 +45,7 @@ export function DriveView({ robot, document }: { robot: Robot; document: SiteDoc
       <Banner document={document} missions={missions} mission={mission} preview={preview.data} onMission={setMissionId} />
       <section className={css.main}>
         <SegmentedControl className={css.views} value={view} onChange={(value) => setView(value as ViewName)} data={narrow ? NARROW : WIDE} />
-        {view === "map" && <DriveMap document={document} robot={robot} plan={plan} placing={placing} onMission={setMissionId} />}
+        {view === "map" && <DriveMap document={document} robot={robot} plan={plan} placing={placing} onPlace={open} onMission={setMissionId} />}
         {view === "scene" && <SceneView available={robot.scene} />}
         {view === "scan" && <ScanView />}
         {view === "camera" && <LiveCamera />}

@@ -8,12 +8,15 @@ import type { Placing } from "./usePlacing";
 
 /** Asks where the robot stands, where nothing else tells; the press itself is on the map. */
 export function PlaceCard({ placing, onMap, onShowMap }: { placing: Placing; onMap: boolean; onShowMap: () => void }) {
-  const { place, turn, clear, send, sending } = placing;
+  const { asked, place, turn, clear, send, sending } = placing;
   return (
     <section className={css.card} aria-label="Where the robot stands">
       <div className={css.words}>
-        <h2>The robot does not know where it stands</h2>
-        <p>{onMap ? "Press where it is and turn the arrow to where it looks, or wait for a GNSS fix." : "Open the map and press where it is, or wait for a GNSS fix."}</p>
+        <h2>{asked ? "The robot does not know where it stands" : "Where does the robot stand?"}</h2>
+        <p>
+          {onMap ? "Press where it is and turn the arrow to where it looks" : "Open the map and press where it is"}
+          {asked ? ", or wait for a GNSS fix." : "."}
+        </p>
         <Search />
       </div>
       {!onMap && (
@@ -29,8 +32,8 @@ export function PlaceCard({ placing, onMap, onShowMap }: { placing: Placing; onM
           <ActionIcon size={52} variant="default" disabled={!place} onClick={() => turn(-TURN)} aria-label="Turn right by 15 degrees">
             <IconRotateClockwise2 size={28} />
           </ActionIcon>
-          <Button size="lg" variant="default" disabled={!place} onClick={clear}>
-            Throw away
+          <Button size="lg" variant="default" disabled={asked && !place} onClick={clear}>
+            {asked ? "Throw away" : "Cancel"}
           </Button>
           <Button size="lg" className={css.here} leftSection={<IconMapPin size={24} />} disabled={!place} loading={sending} onClick={send}>
             It is here

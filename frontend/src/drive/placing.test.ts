@@ -1,7 +1,7 @@
 import { describe, expect, test } from "vitest";
 
-import type { NavStatus, SiteMap } from "../api/types";
-import { asksForPlace, lookingAt, pressed, turned } from "./placing";
+import type { MapMatch, NavStatus, SiteMap } from "../api/types";
+import { asksForPlace, lookingAt, mayBePlaced, pressed, turned } from "./placing";
 
 const FARM = { rows: [{ start: [0, 0], end: [0, 20] }] } as unknown as SiteMap;
 const robot = (...names: string[]) => ({ events: names.map((name) => ({ name })) }) as unknown as NavStatus;
@@ -10,6 +10,14 @@ describe("the robot asks for its place", () => {
   test("where its own navigator says so, and never before it said anything", () => {
     expect([asksForPlace(robot("no_position", "place_unknown")), asksForPlace(robot("no_position")), asksForPlace(null)]).toEqual([true, false, false]);
   });
+});
+
+describe("an operator may correct the place", () => {
+  const at = (state: string, gnss_quality: number) => ({ state, gnss_quality }) as unknown as NavStatus;
+  const match = (state: string) => ({ state }) as unknown as MapMatch;
+  test("of a robot at rest on its 3D map without RTK", () => expect(mayBePlaced(at("idle", 1), match("matched"))).toBe(true));
+  test("and not while it drives, while RTK knows, or without a map", () =>
+    expect([mayBePlaced(at("driving", 1), match("matched")), mayBePlaced(at("idle", 4), match("matched")), mayBePlaced(at("idle", 1), match("no_map")), mayBePlaced(at("idle", 1), null)]).toEqual([false, false, false, false]));
 });
 
 describe("a press puts the robot on the map", () => {

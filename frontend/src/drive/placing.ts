@@ -1,5 +1,5 @@
 /** Where an operator says that the robot stands: a press, and the way it looks. */
-import type { NavStatus, SiteMap } from "../api/types";
+import type { MapMatch, NavStatus, SiteMap } from "../api/types";
 
 export interface Place {
   x: number;
@@ -15,6 +15,12 @@ const BESIDE_ROW = 4;
 
 /** Whether the robot asks to be told where it stands. */
 export const asksForPlace = (status: NavStatus | null): boolean => !!status?.events.some(({ name }) => name === "place_unknown");
+
+const RTK_FIXED = 4;
+
+/** Whether an operator may say where it stands, though it believes to know: at rest, on a 3D map, and without RTK. */
+export const mayBePlaced = (status: NavStatus | null, match: MapMatch | null): boolean =>
+  !!status && !!match && match.state !== "no_map" && status.gnss_quality !== RTK_FIXED && (status.state === "idle" || status.state === "finished");
 
 /** A press keeps the arrow that was turned already; the first one looks along the row it lies in, else to the east. */
 export function pressed([x, y]: readonly [number, number], before: Place | null, site: Pick<SiteMap, "rows">): Place {
