@@ -69,6 +69,7 @@ PERMISSIONS: dict[str, Permission] = {
     "GET /api/missions/{mission_id}/geojson": LOGIN,
     "GET /api/robot": LOGIN,
     "POST /api/robot/site": LOGIN,
+    "POST /api/robot/place": LOGIN,
     "GET /api/drive/nonce": LOGIN,
     "GET /api/runs": LOGIN,
     "POST /api/runs": LOGIN,

@@ -27,6 +27,7 @@ from backend.navigator import NavigatorClient
 from backend.nonces import NonceBook
 from backend.picture_sites import PictureSites
 from backend.picture_store import PictureStore
+from backend.placing import Placer
 from backend.recorder import RecorderClient
 from backend.robot import RobotView
 from backend.row_proposals import RowProposals
@@ -63,6 +64,7 @@ class Station:
     hub: Hub
     robot: RobotView
     starter: RunStarter
+    placer: Placer
     stopper: Stopper
     nonces: NonceBook
     exports: ExportStore
@@ -132,6 +134,7 @@ def open_station(settings: Settings) -> Station:
         hub=hub,
         robot=robot,
         starter=RunStarter(settings, database, runs, audit, navigator, recorder, robot),
+        placer=Placer(sites, robot, navigator, audit),
         stopper=stopper,
         nonces=NonceBook(),
         exports=exports,

@@ -39,6 +39,7 @@ from navcore.mission.map_evidence import MapEvidence, MapEvidenceParams
 from navcore.mission.motion_told import odometry
 from navcore.mission.pilot import Pilot
 from navcore.mission.pilot_params import PilotParams
+from navcore.mission.placing_refusals import placing_refusals
 from navcore.mission.position import Position
 from navcore.mission.senses import Senses
 from navcore.mission.situation import Situation, event_facts
@@ -136,7 +137,7 @@ class Navigator:
                 accepted.append(request.kind)
         if RequestKind.STOP in accepted:
             return tuple(replies), RequestKind.STOP
-        moving = [kind for kind in accepted if kind is not RequestKind.HEARTBEAT]
+        moving = [kind for kind in accepted if kind not in (RequestKind.HEARTBEAT, RequestKind.PLACE)]
         return tuple(replies), moving[-1] if moving else None
 
     def _refusals(self, at: Position, request: Request) -> tuple[str, ...]:
@@ -145,6 +146,8 @@ class Navigator:
             return (nonsense,)
         if request.kind is RequestKind.START:
             return self._start_refusals(at, request)
+        if request.kind is RequestKind.PLACE:
+            return placing_refusals(self.senses, at.now_ns, request.place, self.datum)
         return self._no_entry(at, None) if request.kind is RequestKind.RESUME else ()
 
     def _start_refusals(self, at: Position, request: Request) -> tuple[str, ...]:
@@ -174,6 +177,8 @@ class Navigator:
 
     def _obey(self, at: Position, request: Request) -> None:
         self.heard_ns = at.now_ns
+        if request.place is not None and request.kind is RequestKind.PLACE:
+            self.senses.place(at.now_ns, request.place)
         if request.kind is RequestKind.START:
             self.pilot = self._new_pilot(at, request)
             self.run_id, self.link_loss = request.run_id, request.link_loss

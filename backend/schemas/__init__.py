@@ -33,7 +33,7 @@ from backend.schemas.missions import (
     PreviewRequest,
     RowMissionRequest,
 )
-from backend.schemas.robot import Robot, RobotSite
+from backend.schemas.robot import Robot, RobotPlace, RobotSite
 from backend.schemas.rows import RowProposal
 from backend.schemas.runs import LogFormat, RunDetail, RunDocument, RunEventDocument, RunOutcome, RunTrack
 from backend.schemas.session import Invitation, SessionDocument
@@ -73,6 +73,7 @@ __all__ = [
     "PreviewRequest",
     "Received",
     "Robot",
+    "RobotPlace",
     "RobotSite",
     "RowMissionRequest",
     "RowProposal",

@@ -46,12 +46,13 @@ def block_run(block: PearBlock, params: BlockDriveParams) -> BlockRun:
 def recorded(turn: DriveTurn) -> Iterator[Sensed]:
     """As the log of a real run has it."""
     now_ns = max(turn.stamp_ns, *(w.stamp_ns for w in turn.wheels))
-    chassis = tuple(_chassis(w) for w in turn.wheels)
+    chassis = tuple(chassis_of(w) for w in turn.wheels)
     yield NavInputs(now_ns=now_ns, chassis=chassis, imu=turn.imu, gnss=turn.fixes)
     yield packed(turn.stamp_ns, turn.cloud)
 
 
-def _chassis(w: WheelState) -> ChassisState:
+def chassis_of(w: WheelState) -> ChassisState:
+    """What the chassis of a driven robot reports."""
     return ChassisState(
         stamp_ns=w.stamp_ns, system_stamp_ns=w.stamp_ns, v=w.v, omega=w.omega, left_mm=round(1000 * w.left_m),
         right_mm=round(1000 * w.right_m), state=VehicleState.NORMAL, mode=ControlMode.CAN, voltage_v=25.0, faults=0,

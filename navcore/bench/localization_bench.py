@@ -2,7 +2,8 @@
 
 The map is made of a drive in winter by `MapMaker`; other drives follow in winter, spring and full leaf. Blocks are
 scoring blocks (odd seeds); parameters were set on tuning blocks. A wrong place is a recorded drive whose matches lie
-aside from one moment on: scored is how soon the witnesses (`localization.map_watch`) take the trust from them.
+aside from one moment on: scored is how soon the witnesses (`localization.map_watch`) take the trust from them. Then
+robots are switched on anywhere in the blocks without GNSS, told roughly where they stand, or nothing.
 """
 
 from __future__ import annotations
@@ -23,6 +24,7 @@ from navcore.bench.following_figures import following_figures
 from navcore.bench.localization_drive import Placed, localized
 from navcore.bench.ndt_rivals import following_rivals
 from navcore.bench.ndt_scans import NdtScanParams, ndt_scans
+from navcore.bench.restart_figures import Restarts, restart_figures, restarts
 from navcore.geometry.se2 import SE2
 from navcore.localization.map_watch import MapWatch
 from navcore.mapping.lidar3d.map_maker import MadeMap, MapMaker
@@ -49,7 +51,7 @@ class LocalizationBenchParams:
 
     Attributes:
         blocks: each mapped once. size: of a block. rows: that are driven. drives: in each season. wrong: places put
-            wrong in all.
+            wrong in all. restarts: robots switched on in each season and block.
         bad_drives, bad_turns: drives of each case of bad input, and turns of the LiDAR in each.
         followed: seasons in which the rivals follow a drive on the first block's map, and its rows.
     """
@@ -63,16 +65,18 @@ class LocalizationBenchParams:
     followed_rows: tuple[int, ...] = (0, 1)
     bad_drives: int = 3
     bad_turns: int = 300
+    restarts: int = 12
 
 
 QUICK = LocalizationBenchParams(
     blocks=1, size=BlockSize(alleys=2, length=24.0), wrong=50, followed=(Season.DORMANT,),
-    followed_rows=(0,), bad_drives=1, bad_turns=200,
+    followed_rows=(0,), bad_drives=1, bad_turns=200, restarts=4,
 )  # fmt: skip
 
 
 def run_bench(params: LocalizationBenchParams, tell: Tell) -> tuple[Figure, ...]:
     """All figures."""
+    again: dict[Season, list[Restarts]] = {season: [] for season in SEASONS}
     driven: dict[Season, list[tuple[PearBlock, list[Placed]]]] = {season: [] for season in SEASONS}
     rivals: list[Figure] = []
     for number in range(params.blocks):
@@ -84,10 +88,13 @@ def run_bench(params: LocalizationBenchParams, tell: Tell) -> tuple[Figure, ...]
                 tell(f"block {block.seed}, {SEASONS[season]}, drive {drive + 1}")
                 case = BlockDriveParams(seed=_DRIVE_SEED + drive, season=season, rows=params.rows)
                 driven[season].append((block, list(localized(block, case, made.ndt))))
+            tell(f"block {block.seed}, {SEASONS[season]}, restarts")
+            again[season] += restarts(block, season, made.ndt, params.restarts, tell)
         if number == 0:
             rivals += rival_figures(block, params, made, tell)
             rivals += bad_input_figures(block, params, made.ndt, tell)
     figures = [f for season, drives in driven.items() for f in season_figures(SEASONS[season], drives, params.rows)]
+    figures += [f for season, found in again.items() for f in restart_figures(SEASONS[season], found)]
     trust = trust_figures([placed for drives in driven.values() for _, placed in drives], params.wrong)
     return (*figures, *trust, *rivals)
 

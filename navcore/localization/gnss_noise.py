@@ -77,6 +77,11 @@ class GnssNoise:
         """Whether satellites stand behind a fix of this quality."""
         return quality in self._by_quality
 
+    @property
+    def slowest(self) -> float:
+        """1-sigma of the slow error of a fix of which nothing is known yet, m."""
+        return max(noise.slow for noise in self._by_quality.values())
+
     def slow(self, fix: GnssFix) -> float:
         """1-sigma of the slow error, m: what stays is most of the error, so it is no less than the receiver tells."""
         noise = self._by_quality.get(fix.quality)

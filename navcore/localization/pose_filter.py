@@ -123,9 +123,12 @@ class PoseFilter:
             self._odometry.learn_bias(float(b.mean[GYRO_BIAS]))
 
     def add_match(self, match: MapMatch) -> None:
-        """Where a 3D LiDAR's cloud lies on the map; it does not start the filter, but holds it where GNSS is bad."""
+        """Where a 3D LiDAR's cloud lies on the map; it starts the filter where GNSS has not for a while."""
         numbers = (match.x, match.y, match.yaw, *match.covariance)
-        if not self._is_sound(Evidence.MAP, match.stamp_ns, numbers) or self._history.newest is None:
+        if not self._is_sound(Evidence.MAP, match.stamp_ns, numbers):
+            return
+        if self._history.newest is None:
+            self._begin(self._start.belief_on_map(match, self._map.noise(match)), match.stamp_ns, Evidence.MAP)
             return
 
         def apply(b: Belief) -> list[Verdict]:
@@ -136,7 +139,13 @@ class PoseFilter:
     def restart(self, reason: str) -> None:
         """Forget the pose and wait for a new position and heading, at an operator's word."""
         self._history.stop()
+        self._start.begin_anew()
         self._tally.reason = reason
+
+    def wait_for_map(self, reason: str) -> None:
+        """Forget the pose; only the 3D map, or a fix that RTK gives, may start it again."""
+        self.restart(reason)
+        self._start.only_sure = True
 
     def estimate(self, now_ns: int) -> PoseEstimate | None:
         """Pose predicted to `now_ns`, None until position and heading are known."""
@@ -181,7 +190,7 @@ class PoseFilter:
             ready=belief is not None,
             reason=self._tally.reason,
             quality=belief.quality if belief else FixQuality.NONE,
-            fix_age_s=(now_ns - belief.fix_ns) * NS if belief else None,
+            fix_age_s=(now_ns - belief.fix_ns) * NS if belief and belief.fix_ns else None,
             heading_age_s=self._tally.age_s(now_ns, Evidence.HEADING, Evidence.COURSE),
             position_std=belief.position_std if belief else None,
             yaw_std=math.sqrt(belief.cov[YAW, YAW]) if belief else None,
@@ -198,12 +207,16 @@ class PoseFilter:
             self._tally.reason = "no position yet"
             return
         belief = self._start.belief(fix, east, north, self._v_wheel, self._rate)
+        self._begin(belief, fix.stamp_ns, Evidence.POSITION, Evidence.HEADING)
+
+    def _begin(self, belief: Belief | str, stamp_ns: int, *evidence: Evidence) -> None:
+        """A first belief, or why there is none yet."""
         if isinstance(belief, str):
             self._tally.reason = belief
             return
-        self._tally.reason = ""
+        self._start.begin_anew()
         self._history.start(belief)
-        self._tally.count([Verdict(Evidence.POSITION, True), Verdict(Evidence.HEADING, True)], fix.stamp_ns)
+        self._tally.count([Verdict(of, True) for of in evidence], stamp_ns)
 
     def _place(self, fix: GnssFix) -> tuple[float | None, float | None]:
         if fix.lat_deg is None or fix.lon_deg is None or not self._noise.is_usable(fix.quality):

@@ -48,6 +48,7 @@ from navcore.messages.status import (
     RunState,
 )
 from navcore.messages.tick import Decision, NavInputs, NavPrelude
+from navcore.messages.told_place import ToldPlace
 
 __all__ = [
     "USUAL_WIDTH",
@@ -105,5 +106,6 @@ __all__ = [
     "SimContact",
     "SimFarm",
     "SimTruth",
+    "ToldPlace",
     "TrueRow",
 ]

@@ -47,7 +47,7 @@ class MapMatch:
         x, y, z, roll, pitch, yaw: `base_link` in `map`, m and rad.
         covariance: of (x, y, yaw), row-major 9 numbers.
         score: 0 to 1, how well the points fit the cells; a high one does not prove the place.
-        rival: score of the best other place that was tried, 0 to 1.
+        alike: so many places fit as well as each other where it is AMBIGUOUS, else 0.
         points: number of points that were matched. latency_ms: from capture to publication.
         passed, gone: posts and trunks of the map that were passed lately, and those of them that are not there.
         lidar: how the sensor does; None where nobody looked.
@@ -64,12 +64,12 @@ class MapMatch:
     yaw: float = 0.0
     covariance: tuple[float, ...] = (0.0,) * 9
     score: float = 0.0
-    rival: float = 0.0
     points: int = 0
     latency_ms: float = 0.0
     passed: int = 0
     gone: int = 0
     lidar: LidarCondition | None = None
+    alike: int = 0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -80,6 +80,8 @@ class Odometry:
         x, y, yaw: of `base_link` in `odom`, which drifts but never jumps, m and rad. v, omega: m/s and rad/s.
         roll, pitch: against gravity, rad (REP 103).
         pose: in `map` by all that the filter believes, None before it knows. quality: of the newest fix.
+        told: where an operator said that the robot stands, carried on since, with how far that may be off; None
+            before. told_ns: when it was said.
     """
 
     stamp_ns: int
@@ -92,3 +94,5 @@ class Odometry:
     pitch: float
     pose: PoseEstimate | None
     quality: FixQuality
+    told: PoseEstimate | None = None
+    told_ns: int = 0

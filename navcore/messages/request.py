@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from navcore.messages.mission_plan import MissionPlan
+from navcore.messages.told_place import ToldPlace
 
 
 class LinkLossPolicy(StrEnum):
@@ -24,6 +25,7 @@ class RequestKind(StrEnum):
     STOP = "stop"
     ACKNOWLEDGE = "acknowledge"
     HEARTBEAT = "heartbeat"
+    PLACE = "place"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -35,6 +37,7 @@ class Request:
     run_id: str | None = None
     plan: MissionPlan | None = None
     link_loss: LinkLossPolicy = LinkLossPolicy.CONTINUE
+    place: ToldPlace | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -78,8 +78,9 @@ class EventFacts:
     on the narrower side of a seen one that is near; `askew`: how far the camera leans to the right against the IMU,
     and its 1-sigma, rad; `mount`: how else it is mounted; `agreement`: whether it agrees with the 2D LiDAR; `halt`:
     what the operator is told where the plan lets the robot wait; `map_reason`: why the 3D map does not tell the
-    place, empty while it does, and `map_disputed`: it would, but other witnesses contradict it; `map_match`: the
-    newest word of the 3D LiDAR, and `lidar3d_turned`: how far to the left it looks, rad.
+    place, empty while it does, and `map_disputed`: it would, but other witnesses contradict it; `map_in_use`: there
+    is one, and a 3D LiDAR that reports; `map_match`: its newest word, and `lidar3d_turned`: how far to the left it
+    looks, rad.
     """
 
     state: RunState
@@ -117,3 +118,4 @@ class EventFacts:
     map_disputed: bool = False
     map_match: MapMatch | None = None
     lidar3d_turned: float = 0.0
+    map_in_use: bool = False

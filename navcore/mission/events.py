@@ -22,7 +22,14 @@ from navcore.mission.camera_events import (
     turned_words,
 )
 from navcore.mission.event_facts import EventFacts, EventParams
-from navcore.mission.map_events import disputed_words, is_map_disputed, is_map_unsure, unsure_words
+from navcore.mission.map_events import (
+    disputed_words,
+    is_map_disputed,
+    is_map_unsure,
+    is_place_unknown,
+    unknown_words,
+    unsure_words,
+)
 from navcore.mission.state_machine import MOVING, UNDER_WAY, Effect
 
 
@@ -223,6 +230,7 @@ EVENTS: tuple[Event, ...] = (
     _warning("lidar3d_drops", lidar3d.is_raining, lidar3d.raining_words),
     _warning("map_outdated", lidar3d.is_outdated, lidar3d.outdated_words),
     _event("map_disputed", "WARN", lambda f, _: f.state in UNDER_WAY and is_map_disputed(f), disputed_words),
+    _event("place_unknown", "WARN", is_place_unknown, unknown_words),
     _event(
         "held_too_long", "STOP",
         lambda f, p: f.state is RunState.HOLDING

@@ -1,8 +1,8 @@
-"""When the 3D map is no ground to drive on, and when it is not believed."""
+"""When the 3D map is no ground to drive on, when it is not believed, and when it waits for an operator's word."""
 
 from __future__ import annotations
 
-from navcore.messages import NavMode
+from navcore.messages import NavMode, RunState
 from navcore.mission.event_facts import EventFacts, EventParams
 
 
@@ -27,3 +27,14 @@ def is_map_disputed(f: EventFacts) -> bool:
 def disputed_words(f: EventFacts) -> str:
     """For the operator."""
     return f"The 3D map is not believed: {f.map_reason}. The robot drives without it."
+
+
+def is_place_unknown(f: EventFacts, p: EventParams) -> bool:
+    """No mission is on, a 3D map is in use, and neither it nor GNSS tells the place: a person may."""
+    unknown = f.pose_std is None or not f.pose_std <= p.pose_std
+    return f.map_in_use and unknown and f.state in (RunState.IDLE, RunState.FINISHED)
+
+
+def unknown_words(f: EventFacts) -> str:
+    """For the operator."""
+    return f"The robot does not know where it stands: {f.map_reason or 'GNSS has no fix'}. Say it on the map."

@@ -12,6 +12,8 @@ from navcore.localization.travel_direction import TravelDirection, TravelDirecti
 from navcore.messages import FixQuality, GnssFix, MapMatch, MatchState, RowObservation
 
 NS = 1e-9
+# Older than this a LiDAR says nothing of now, s.
+FRESH_S = 2.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -100,6 +102,11 @@ class MapEvidence:
     def age_s(self, now_ns: int) -> float | None:
         """Age of the newest match that was believed."""
         return None if self.newest is None else (now_ns - self.newest.stamp_ns) * NS
+
+    def in_use(self, now_ns: int) -> bool:
+        """A 3D LiDAR reports, and there is a map to lay its clouds onto."""
+        told = self.told
+        return told is not None and told.state is not MatchState.NO_MAP and (now_ns - told.stamp_ns) * NS <= FRESH_S
 
     @property
     def turned(self) -> float:

@@ -7,7 +7,7 @@ from navcore.mission.senses import Senses
 
 
 def odometry(senses: Senses, now_ns: int) -> Odometry:
-    """Pose in `odom`, velocity, attitude, and the filter's pose in `map` to start from."""
+    """Pose in `odom`, velocity, attitude, and the filter's pose and an operator's word to start from."""
     at, pose, attitude = senses.T_odom_base, senses.pose, senses.attitude
     return Odometry(
         stamp_ns=now_ns,
@@ -20,4 +20,6 @@ def odometry(senses: Senses, now_ns: int) -> Odometry:
         pitch=attitude.pitch,
         pose=pose,
         quality=senses.gnss_quality,
+        told=senses.placing.estimate(now_ns, at),
+        told_ns=senses.placing.told_ns,
     )

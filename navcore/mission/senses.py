@@ -9,10 +9,11 @@ from navcore.geometry.se2 import SE2
 from navcore.localization.attitude import Attitude
 from navcore.localization.independent_check import IndependentCheck
 from navcore.localization.pose_filter import PoseFilter
-from navcore.messages import CameraName, FixQuality, NavInputs, PoseEstimate, RowObservation
+from navcore.messages import CameraName, FixQuality, NavInputs, PoseEstimate, RowObservation, ToldPlace
 from navcore.mission.camera_truth import CameraTruth
 from navcore.mission.evidence import NS, GnssEvidence
 from navcore.mission.map_evidence import MapEvidence
+from navcore.mission.placing import Placing
 
 STANDING_V = 0.03
 STANDING_OMEGA = 0.05
@@ -30,6 +31,7 @@ class Senses:
         self.attitude = attitude
         self.gnss = gnss
         self.on_map = on_map
+        self.placing = Placing()
         self.chassis: ChassisState | None = None
         self.pose: PoseEstimate | None = None
         self.T_odom_base = SE2(0.0, 0.0, 0.0)
@@ -65,6 +67,12 @@ class Senses:
         for row in inputs.rows:
             self._take_lean(row)
             self.camera.take(row)
+
+    def place(self, now_ns: int, place: ToldPlace) -> None:
+        """An operator says where the robot stands: the 3D map is searched there, and weak fixes count no more."""
+        self.placing.hear(now_ns, place, self.T_odom_base)
+        self.filter.wait_for_map("the 3D map is searched where the operator has put the robot")
+        self.pose = None
 
     def _take_lean(self, row: RowObservation) -> None:
         """The rear camera leans to its right where the robot leans to its left."""

@@ -89,6 +89,7 @@ def event_facts(
         map_disputed=s.on_map.disputed,
         map_match=s.on_map.told,
         lidar3d_turned=s.on_map.turned,
+        map_in_use=s.on_map.in_use(now_ns),
     )
 
 

@@ -80,10 +80,21 @@ def refusal(state: RunState, request: RequestKind) -> str | None:
     """Why a request makes no sense now, or None if it does."""
     if request in (RequestKind.STOP, RequestKind.HEARTBEAT):
         return None
+    if request is RequestKind.PLACE:
+        return _no_placing(state)
     if request is RequestKind.START and state in UNDER_WAY:
         return "A mission is under way. Stop it before you start another."
     if request is RequestKind.START and state is RunState.STOPPED:
         return "The last mission was stopped. Acknowledge the stop first, or resume the mission."
     if _on_request(state, request) is state:
         return f"Cannot {request.value} while the mission is {state.value}."
+    return None
+
+
+def _no_placing(state: RunState) -> str | None:
+    """A robot is not put elsewhere on the map while a mission rests on where it is."""
+    if state in UNDER_WAY:
+        return "A mission is under way. Stop it before you say where the robot stands."
+    if state is RunState.STOPPED:
+        return "The last mission was stopped. Acknowledge the stop before you say where the robot stands."
     return None

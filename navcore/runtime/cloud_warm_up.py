@@ -14,6 +14,7 @@ from navcore.sim.orchard import Season
 from navcore.sim.pear_block import BlockSize, tuning_block
 
 TURN_NS = 100_000_000
+CLOUDS = 10  # a search, a contest, and the way from one cloud to the next
 
 
 def warm_up() -> None:
@@ -27,14 +28,21 @@ def warm_up() -> None:
     ndt_map = NdtMap()
     ndt_map.add(T_map_base.apply(points))
     localizer, motion = MapLocalizer(ndt_map), standing(x, y)
-    for k in range(2):
+    for k in range(CLOUDS):
         localizer.process(points, k * TURN_NS, motion)
 
 
 def standing(x: float, y: float) -> Odometry:
-    """Of a robot that knows its place to a metre."""
+    """Of a robot that knows its place to a metre, and its direction to 6 deg."""
     pose = PoseEstimate(
-        stamp_ns=0, x=x, y=y, yaw=0.0, v=0.0, omega=0.0, covariance=tuple(np.eye(3).ravel().tolist()), source="told"
+        stamp_ns=0,
+        x=x,
+        y=y,
+        yaw=0.0,
+        v=0.0,
+        omega=0.0,
+        covariance=tuple(np.diag((1.0, 1.0, 0.01)).ravel().tolist()),
+        source="told",
     )
     return Odometry(
         stamp_ns=0, x=0.0, y=0.0, yaw=0.0, v=0.0, omega=0.0, roll=0.0, pitch=0.0, pose=pose, quality=FixQuality.SINGLE

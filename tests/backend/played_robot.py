@@ -54,6 +54,7 @@ class PlayedRobot:
         self.x = 0.0
         self.stop_reason = ""
         self.refusals: tuple[str, ...] = ()
+        self.refused: dict[RequestKind, tuple[str, ...]] = {}
         self.camera = False
         self.silent = False
         self.requests: list[Request] = []
@@ -100,8 +101,9 @@ class PlayedRobot:
 
     def _answer(self, request: Request, publisher: Publisher, door: Replier) -> None:
         self.requests.append(request)
-        if self.refusals and request.kind is RequestKind.START:
-            door.reply(Reply(request_id=request.request_id, accepted=False, reasons=self.refusals))
+        reasons = self.refusals if request.kind is RequestKind.START else self.refused.get(request.kind, ())
+        if reasons:
+            door.reply(Reply(request_id=request.request_id, accepted=False, reasons=reasons))
             return
         if request.kind is RequestKind.START:
             self.run_id = request.run_id

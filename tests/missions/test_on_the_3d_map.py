@@ -9,8 +9,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from navcore.bench.known_map import known_map
-from navcore.geometry.lidar_mount import robot_lidar3d
 from navcore.localization.map_localizer import MapLocalizer
 from navcore.maps.mission import RowExit
 from navcore.maps.ndt.ndt_map import NdtMap
@@ -20,31 +18,16 @@ from navcore.planning.mission_planner import mission_for_row
 from navcore.runtime.lockstep import Lockstep, Tick
 from navcore.runtime.simulated_eye import ProjectedEye
 from navcore.runtime.simulated_map_eye import SimulatedMapEye
-from navcore.sim.lidar3d import C16, Lidar3dFaults
-from navcore.sim.lidar3d_feed import Lidar3dFeed
-from navcore.sim.map_error import NO_MAP_ERROR
-from navcore.sim.trellis.trellised import trellised
-from navcore.sim.world import World, WorldParams
+from navcore.sim.lidar3d import Lidar3dFaults
+from navcore.sim.world import World
 from navcore.vehicle import PAPER_A
 from tests.missions.conftest import CONFIG, Drive, small_farm
-
-AS_DRAWN = WorldParams(seed=4, map_error=NO_MAP_ERROR)
-
-
-MOUNT = robot_lidar3d()
-# Half as many rays as the sensor has: the places come out as well, in half the time.
-LIDAR = replace(C16, columns=900)
-
-
-def lidar_of(world: World, seed: int) -> Lidar3dFeed:
-    """Turns of a 3D LiDAR in that world."""
-    scene = trellised(world.site, world.orchard, world.terrain).scene
-    return Lidar3dFeed(scene, world.terrain, PAPER_A, MOUNT, LIDAR, seed)
+from tests.missions.mapped_farm import AS_DRAWN, MOUNT, lidar_of, mapped
 
 
 @pytest.fixture(scope="module")
 def farm_map() -> NdtMap:
-    return known_map(World(small_farm(), PAPER_A, AS_DRAWN), PAPER_A, MOUNT, LIDAR)
+    return mapped(World(small_farm(), PAPER_A, AS_DRAWN))
 
 
 @pytest.fixture

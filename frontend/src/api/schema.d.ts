@@ -288,6 +288,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/robot/place": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Say Where It Stands
+         * @description Where the 3D map is to look for the standing robot; 409 with every reason if that may not be said now.
+         */
+        post: operations["say_where_it_stands_api_robot_place_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/robot/site": {
         parameters: {
             query?: never;
@@ -2015,12 +2035,17 @@ export interface components {
          *         x, y, z, roll, pitch, yaw: `base_link` in `map`, m and rad.
          *         covariance: of (x, y, yaw), row-major 9 numbers.
          *         score: 0 to 1, how well the points fit the cells; a high one does not prove the place.
-         *         rival: score of the best other place that was tried, 0 to 1.
+         *         alike: so many places fit as well as each other where it is AMBIGUOUS, else 0.
          *         points: number of points that were matched. latency_ms: from capture to publication.
          *         passed, gone: posts and trunks of the map that were passed lately, and those of them that are not there.
          *         lidar: how the sensor does; None where nobody looked.
          */
         MapMatch: {
+            /**
+             * Alike
+             * @default 0
+             */
+            alike: number;
             /**
              * Covariance
              * @default [
@@ -2067,11 +2092,6 @@ export interface components {
              * @default
              */
             reason: string;
-            /**
-             * Rival
-             * @default 0
-             */
-            rival: number;
             /**
              * Roll
              * @default 0
@@ -2654,6 +2674,27 @@ export interface components {
             site_id: string | null;
             state: components["schemas"]["RunState"] | null;
             vehicle: components["schemas"]["VehicleParams"];
+        };
+        /**
+         * RobotPlace
+         * @description Says where the standing robot is, where only its 3D map can tell: a press on the map and a turned arrow.
+         *
+         *     Attributes:
+         *         site_id: the farm whose map was pressed.
+         *         x, y: `base_link` in that farm's `map` frame, m. yaw: where it looks, rad from east against the clock.
+         */
+        RobotPlace: {
+            /**
+             * Site Id
+             * @description Made by the station
+             */
+            site_id: string;
+            /** X */
+            x: number;
+            /** Y */
+            y: number;
+            /** Yaw */
+            yaw: number;
         };
         /**
          * RobotSite
@@ -4155,6 +4196,39 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Robot"];
+                };
+            };
+            /** @description Any error */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ErrorDocument"];
+                };
+            };
+        };
+    };
+    say_where_it_stands_api_robot_place_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["RobotPlace"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ActionResult"];
                 };
             };
             /** @description Any error */

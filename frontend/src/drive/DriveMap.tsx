@@ -17,17 +17,24 @@ import { Map3dLayer } from "../map/map3d/Map3dLayer";
 import { useMap3dView } from "../map/map3d/useMap3dView";
 import { useSiteFrame } from "../map/useSiteFrame";
 import { isUnderWay } from "../ui/words";
+import { PlaceButton } from "./PlaceButton";
+import { PlaceLayer } from "./PlaceLayer";
 import css from "./drive.module.css";
 import { useDriveToTrunk } from "./useDriveToTrunk";
+import type { Placing } from "./usePlacing";
 
 interface Props {
   document: SiteDocument;
   robot: Robot;
   plan: MissionPlan | null;
+  /** While the robot asks where it stands. */
+  placing: Placing | null;
+  /** Lets an operator say it unasked, where he may. */
+  onPlace: (() => void) | null;
   onMission: (id: string) => void;
 }
 
-export function DriveMap({ document, robot, plan, onMission }: Props) {
+export function DriveMap({ document, robot, plan, placing, onPlace, onMission }: Props) {
   const toTrunk = useDriveToTrunk(document.id, onMission);
   const underWay = isUnderWay(useTopic("nav/status")?.state);
   const frame = useSiteFrame(document.site.datum);
@@ -44,8 +51,13 @@ export function DriveMap({ document, robot, plan, onMission }: Props) {
       <LiveDrivenLayer frame={frame} />
       <LiveRobotLayer frame={frame} vehicle={robot.vehicle} follow={follow} />
       <LiveGhostLayer frame={frame} />
-      <TrunkLayer siteId={document.id} frame={frame} onDrive={underWay ? undefined : toTrunk} />
+      {placing ? (
+        <PlaceLayer frame={frame} place={placing.place} onPress={placing.press} onTurn={placing.set} />
+      ) : (
+        <TrunkLayer siteId={document.id} frame={frame} onDrive={underWay ? undefined : toTrunk} />
+      )}
       <FitTo extent={extent} subject={document.id} />
+      {onPlace && <PlaceButton onPress={onPlace} />}
       <FollowButton follow={follow} onChange={setFollow} />
     </MapView>
   );

@@ -14,8 +14,10 @@ import { DriveMap } from "./DriveMap";
 import { Gauges } from "./Gauges";
 import { LiveCamera } from "./LiveCamera";
 import { Logbook } from "./Logbook";
+import { PlaceCard } from "./PlaceCard";
 import { SceneView } from "./SceneView";
 import css from "./drive.module.css";
+import { usePlacing } from "./usePlacing";
 import { useRecordedStart } from "./useRecordedStart";
 
 type ViewName = "map" | "scene" | "scan" | "camera";
@@ -35,6 +37,7 @@ export function DriveView({ robot, document }: { robot: Robot; document: SiteDoc
   const mission = missions.find(({ id }) => id === missionId) ?? missions[0] ?? null;
   const preview = useQuery(previewQuery(document.id, mission?.mission ?? null, document.version));
   const plan = useShownPlan(preview.data?.plan ?? null);
+  const { placing, open } = usePlacing(document);
   useRecordedStart();
   const view = chosen === "camera" && !narrow ? "map" : chosen;
   return (
@@ -42,10 +45,11 @@ export function DriveView({ robot, document }: { robot: Robot; document: SiteDoc
       <Banner document={document} missions={missions} mission={mission} preview={preview.data} onMission={setMissionId} />
       <section className={css.main}>
         <SegmentedControl className={css.views} value={view} onChange={(value) => setView(value as ViewName)} data={narrow ? NARROW : WIDE} />
-        {view === "map" && <DriveMap document={document} robot={robot} plan={plan} onMission={setMissionId} />}
+        {view === "map" && <DriveMap document={document} robot={robot} plan={plan} placing={placing} onPlace={open} onMission={setMissionId} />}
         {view === "scene" && <SceneView available={robot.scene} />}
         {view === "scan" && <ScanView />}
         {view === "camera" && <LiveCamera />}
+        {placing && <PlaceCard placing={placing} onMap={view === "map"} onShowMap={() => setView("map")} />}
       </section>
       <aside className={css.side}>
         {!narrow && <LiveCamera />}

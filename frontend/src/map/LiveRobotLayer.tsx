@@ -16,7 +16,7 @@ export function LiveRobotLayer({ frame, vehicle, follow }: { frame: SiteFrame; v
   useEffect(() => {
     const draw = () => {
       const pose = store.newest("nav/status")?.data.pose;
-      if (!pose) return;
+      if (!pose) return source.clear(true); // it is nowhere, and not where it was
       if (source.isEmpty()) source.addFeatures(robot.all);
       robot.move(pose);
       if (follow) map.getView().setCenter(frame.toScreen([pose.x, pose.y]));

@@ -81,6 +81,12 @@ FAULTS: dict[str, dict[str, Any]] = {
     "carried_too_far": {"mode": NavMode.HEADLAND, "carried": 31.0},
     "map_unsure": {"mode": NavMode.MAP, "map_age_s": 0.9},
     "map_disputed": {"map_disputed": True, "map_reason": "RTK and the 3D map are 0.6 m apart"},
+    "place_unknown": {
+        "state": RunState.IDLE,
+        "pose_std": None,
+        "map_in_use": True,
+        "map_reason": "2 places look the same",
+    },
     "held_too_long": {"state": RunState.HOLDING, "held_s": 21.0},
     "off_path": {"lateral_error": -0.35},
     "far_off_path": {"lateral_error": 0.6},
