@@ -17,11 +17,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from backend.confinement import leave_network, limit_resources
-from backend.disk import write_durably
 from backend.height_colours import height_colours
 from backend.map3d_files import CLOUD, FACTS, GROUND, NDT, PICTURE
 from backend.map3d_ground import ground_bytes
 from backend.png import encode_png
+from navcore.disk import write_durably
 from navcore.errors import InputError, NdtMapError
 from navcore.mapping.surface_model import SurfaceModel, surface_model
 from navcore.mapping.trellis.ground_model import GroundModel

@@ -19,6 +19,7 @@ from pathlib import Path
 import msgspec
 import numpy as np
 
+from navcore.disk import write_durably
 from navcore.errors import NdtMapError
 from navcore.maps.ndt.cell_grid import CellGrid, CellParams
 from navcore.maps.ndt.cell_kernels import SUMS
@@ -54,12 +55,9 @@ def ndt_map_bytes(ndt_map: NdtMap) -> bytes:
 
 def write_ndt_map(path: Path, ndt_map: NdtMap) -> None:
     """Write a map, whole or not at all. Raises NdtMapError."""
-    unfinished = path.with_name(path.name + ".unfinished")
     try:
-        unfinished.write_bytes(ndt_map_bytes(ndt_map))
-        unfinished.replace(path)
+        write_durably(path, ndt_map_bytes(ndt_map))
     except OSError as error:
-        unfinished.unlink(missing_ok=True)
         raise NdtMapError(f"{path} cannot be written: {error.strerror or error}.") from None
 
 
