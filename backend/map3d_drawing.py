@@ -48,6 +48,8 @@ def main() -> int:
         draw()
     except InputError as error:
         sys.stdout.write(str(error))
+    except OSError as error:
+        sys.stdout.write(f"{error.filename or 'a file'} cannot be read or written: {error.strerror}.")
     except MemoryError:
         sys.stdout.write(TOO_LARGE)
     else:
