@@ -6,6 +6,7 @@ import ctypes
 import resource
 import sys
 
+WAITED_FOR = 10  # how nice a process is whose end somebody waits for: it stands behind the robot, and gets on
 CLONE_NEWUSER, CLONE_NEWNET = 0x10000000, 0x40000000  # linux/sched.h
 
 

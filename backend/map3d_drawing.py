@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from backend.confinement import leave_network, limit_resources
+from backend.confinement import WAITED_FOR, leave_network, limit_resources
 from backend.height_colours import height_colours
 from backend.map3d_files import CLOUD, FACTS, GROUND, NDT, PICTURE
 from backend.map3d_ground import ground_bytes
@@ -30,7 +30,6 @@ from navcore.maps.ndt.ndt_file import ndt_datum_of
 from navcore.promptness import give_way
 
 UNREADABLE = 3
-NICENESS = 10  # behind the robot, but somebody waits for it
 # What lies lower is ground, m: it lets the orthophoto through.
 LOW = 0.2
 GROUND_ALPHA, ALPHA = 90, 235
@@ -42,13 +41,15 @@ def main() -> int:
     """Draw one map, whole or not at all."""
     arguments = _arguments()
     limit_resources(arguments.memory_bytes, arguments.cpu_s)
-    give_way(NICENESS)
+    give_way(WAITED_FOR)
     leave_network()
     os.chdir(arguments.folder)  # so that no sentence names the station's folders
     try:
         draw()
     except InputError as error:
         sys.stdout.write(str(error))
+    except OSError as error:
+        sys.stdout.write(f"{error.filename or 'a file'} cannot be read or written: {error.strerror}.")
     except MemoryError:
         sys.stdout.write(TOO_LARGE)
     else:

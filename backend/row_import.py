@@ -10,14 +10,14 @@ import json
 from dataclasses import replace
 from pathlib import Path
 
-from backend.confinement import leave_network, limit_resources
+from backend.confinement import WAITED_FOR, leave_network, limit_resources
 from backend.orthophoto_import import say, tell
 from navcore.errors import InputError
 from navcore.mapping.row_map.cloud_in_map import read_seen_cloud
 from navcore.mapping.row_map.map_rows import map_rows
 from navcore.mapping.row_map.row_map import RowMap
 from navcore.maps.site_map import Datum
-from navcore.promptness import stand_back
+from navcore.promptness import give_way
 from navcore.transport.codec import encode
 
 _STEPS = ("Finding the ground", "Looking for posts", "Finding rows and headlands")
@@ -28,7 +28,7 @@ def main() -> int:
     """Find the rows of one map. Exit status 0 whenever the last line says how it went."""
     arguments = _arguments()
     limit_resources(arguments.memory_bytes, arguments.cpu_s)
-    stand_back()
+    give_way(WAITED_FOR)
     leave_network()
     try:
         found = find_rows(arguments.map, arguments.name, Datum(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -106,12 +107,12 @@ def test_a_map_without_a_place_on_the_earth_says_so_and_is_not_used(
     assert list(station.settings.upload_dir.iterdir()) == []
 
 
-@pytest.mark.parametrize("name", ["cloud.laz", "map.ndt"])
-def test_a_map_that_was_cut_off_becomes_a_sentence_and_no_picture(
-    client: TestClient, station: Station, site: SiteMap, site_id: str, name: str
+@pytest.mark.parametrize(("harm", "name"), [(cut, "cloud.laz"), (cut, "map.ndt"), (Path.unlink, "map.ndt")])
+def test_a_map_that_was_cut_off_or_lost_becomes_a_sentence_and_no_picture(
+    client: TestClient, station: Station, site: SiteMap, site_id: str, harm: Callable[[Path], None], name: str
 ) -> None:
     folder = made(station, site_id, site.datum)
-    cut(folder / name)
+    harm(folder / name)
     answer = client.get(f"/api/sites/{site_id}/maps3d/{RUN}/picture")
     assert answer.status_code == 422, answer.text
     message = answer.json()["message"]

@@ -973,7 +973,8 @@ export interface paths {
         };
         /**
          * Export Osm
-         * @description The site as Lanelet2 OSM, with the turns that its headlands allow this robot.
+         * @description The site as Lanelet2 OSM, with the turns that its headlands allow this robot, and heights where a 3D map of the
+         *     farm knows the ground; the first time such a map is asked for them takes some seconds.
          */
         get: operations["export_osm_api_sites__site_id__osm_get"];
         put?: never;

@@ -22,12 +22,17 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RowMapParams:
-    """Parameters of `row_map`: those of its stages."""
+    """Parameters of `row_map`: those of its stages, and:
+
+    Attributes:
+        closest: what stands nearer to each other along a line is not posts alone, m.
+    """
 
     rows: FoundRowParams = field(default_factory=FoundRowParams)
     ground: StandingGroundParams = field(default_factory=StandingGroundParams)
     headlands: HeadlandParams = field(default_factory=HeadlandParams)
     lanes: HeadlandLaneParams = field(default_factory=HeadlandLaneParams)
+    closest: float = 2.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -57,7 +62,7 @@ def row_map(trellis: TrellisReference, clouds: Sequence[SeenCloud], params: RowM
             found, rows=found.rows + block.rows, zones=found.zones + _zones(headlands, number),
             lanes=found.lanes + lanes_of(block, headlands, ground, len(found.lanes) + 1, params.lanes),
         )  # fmt: skip
-    return replace(found, notes=(_summary(trellis, found), *notes))
+    return replace(found, notes=(_summary(trellis, found), *_spacing_notes(found.rows, params), *notes))
 
 
 def added(site: SiteMap, found: RowMap) -> SiteMap:
@@ -128,6 +133,13 @@ def _summary(trellis: TrellisReference, found: RowMap) -> str:
         f"{len(trellis.posts)} posts in {len(trellis.lines)} lines and {len(trellis.trunks)} trunks make "
         f"{len(found.rows)} row{'s' if len(found.rows) != 1 else ''} to drive."
     )
+
+
+def _spacing_notes(rows: tuple[Row, ...], params: RowMapParams) -> list[str]:
+    """A sentence where vines were taken for posts."""
+    if min(row.post_spacing for row in rows) >= params.closest:
+        return []
+    return ["Vines stand as high as the posts here and were taken for posts. Check the ends of the rows."]
 
 
 def _headland_notes(block: FoundBlock, ends: list[Headland | None]) -> list[str]:

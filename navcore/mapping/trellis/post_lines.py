@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +20,7 @@ class PostLineParams:
 
     Attributes:
         nearest, furthest: distances between neighbouring posts of a line, m.
+        plants: vines that were trained as high as their posts stand this near to each other, m, at most `nearest`.
         parallel_deg: lines of a family differ by less in direction, deg.
         off: a post stands no further from its line than this, m.
         fewest: posts that make a line.
@@ -28,6 +29,7 @@ class PostLineParams:
 
     nearest: float = 2.0
     furthest: float = 15.0
+    plants: float = 1.0
     parallel_deg: float = 4.0
     off: float = 0.4
     fewest: int = 3
@@ -49,6 +51,15 @@ def post_lines(places: Floats, params: PostLineParams = PostLineParams()) -> tup
         families.append(tuple(family))
         left = np.setdiff1d(left, np.concatenate(family))
     return tuple(families)
+
+
+def upright_lines(places: Floats, params: PostLineParams = PostLineParams()) -> tuple[tuple[Ints, ...], ...]:
+    """Families of lines as `post_lines` finds them; where none has two lines, vines may stand in them like posts."""
+    families = post_lines(places, params)
+    if any(len(family) > 1 for family in families):
+        return families
+    closer = post_lines(places, replace(params, nearest=params.plants))
+    return closer if any(len(family) > 1 for family in closer) else families
 
 
 def _family(places: Floats, left: Ints, params: PostLineParams) -> list[Ints]:

@@ -13,7 +13,7 @@ from scipy.spatial import KDTree
 from navcore.errors import CloudError
 from navcore.mapping.trellis.ground_model import GroundModel, GroundParams
 from navcore.mapping.trellis.persistent_cells import PersistentCellParams, PersistentCells, persistent_cells
-from navcore.mapping.trellis.post_lines import PostLineParams, post_lines
+from navcore.mapping.trellis.post_lines import PostLineParams, upright_lines
 from navcore.mapping.trellis.posts import Post, PostParams, above_ground, find_uprights
 from navcore.mapping.trellis.seen_cloud import SeenCloud
 from navcore.mapping.trellis.wires import Wire, WireParams, find_wires
@@ -81,7 +81,7 @@ def trellis_reference(
     ground = GroundModel.of([cloud.points for cloud in clouds], params.ground)
     tell("Looking for posts")
     uprights = find_uprights(clouds, ground, params.posts)
-    families = post_lines(places_of(uprights.posts), params.lines)
+    families = upright_lines(places_of(uprights.posts), params.lines)
     lines = [line for family in families for line in family]
     posts = tuple(uprights.posts[i] for line in lines for i in line)
     numbered = _numbered([len(line) for line in lines])

@@ -56,6 +56,18 @@ def test_each_alley_between_two_lines_of_posts_is_a_row() -> None:
         assert row.plant_spacing == pytest.approx(6.0, abs=0.1)  # m
 
 
+def test_vines_as_tall_as_their_posts_still_make_rows_and_the_operator_is_told() -> None:
+    vineyard = StandingBlock(lines=3, posts=13, width=3.0, spacing=1.5)
+    seen = map_rows([vineyard.seen(rays=False)])[0]
+    assert len(seen.rows) == 2
+    for row, middle in zip(sorted(seen.rows, key=lambda r: r.start[1]), (1.5, 4.5), strict=True):
+        ends = sorted((row.start, row.end))
+        assert ends[0] == pytest.approx((0.0, middle), abs=0.1)  # m
+        assert ends[1] == pytest.approx((vineyard.length, middle), abs=0.1)  # m
+    assert any("taken for posts" in note for note in seen.notes)
+    assert not any("taken for posts" in note for note in found().notes)
+
+
 def test_the_open_ground_before_the_rows_becomes_headlands() -> None:
     headlands = [zone for zone in found().zones if zone.kind is ZoneKind.HEADLAND]
     assert len(headlands) == 2
