@@ -30,7 +30,8 @@ class BendingRowParams:
         beside: plants further than that from a line of the corridor are none of it.
         offset_std, heading_std, width_std: 1-sigma of the corridor that it starts from, m, rad, m.
         next_std, next_turn_std: 1-sigma of where the next line on either side stands about one width further out, m,
-            and of how far it turns from the row, rad.
+            and of how far it turns from the row, rad. next_sure: only plants as sure as that stand on them, 0 to 1:
+            those that the camera has seen as well.
         ahead: the told direction is to the middle so far ahead, > 0.
         fewest: plants on each side; with fewer there is nothing to add to the corridor.
     """
@@ -44,6 +45,7 @@ class BendingRowParams:
     width_std: float = 0.3
     next_std: float = 0.15
     next_turn_std: float = 0.01
+    next_sure: float = 0.9
     ahead: float = 1.5
     fewest: int = 2
 
@@ -79,7 +81,8 @@ class BendingRow:
         along, left = (plants[:, :2] @ np.array(((c, -s), (s, c)))).T
         side = _line((left - offset) / width)
         off = left - offset - side * width / 2.0
-        on = np.abs(off) <= self._params.beside
+        counts = (np.abs(side) == 1.0) | (plants[:, 3] >= self._params.next_sure)
+        on = counts & (np.abs(off) <= self._params.beside)
         if min(np.count_nonzero(on & (side == 1.0)), np.count_nonzero(on & (side == -1.0))) < self._params.fewest:
             return None
         noise = plants[on, 2] ** 2, 1.0 / np.maximum(plants[on, 3], 0.1)

@@ -33,6 +33,7 @@ class BoxAssociationParams:
         pitch_deg: of the camera's pitch about what is told; range_share: of a foot's distance beside that.
         wider, edge_px: a box is so many times as wide as the plant's diameter, for trunks sway and fork, and by so
             much more at its edges, pixels at 640 px image width. size: 1-sigma of the logarithm of its width.
+        most_size: no more counts against a box of another width, in the measure of `alone`: trunks are half hidden.
         reach: plants further away than that have no box, m.
         sureness: at most so much counts against a plant that is hardly a trunk, in the measure of `alone`.
         alone: half the squared distance beyond which an object has no plant.
@@ -49,12 +50,13 @@ class BoxAssociationParams:
     wider: float = 1.65
     edge_px: float = 4.5
     size: float = 0.3
+    most_size: float = 1.5
     reach: float = 12.0
     sureness: float = 3.0
     alone: float = 6.0
     fewest: int = 4
     known_pitch: float = 0.4
-    clear: float = 0.8
+    clear: float = 1.0
 
 
 def associate(
@@ -122,7 +124,7 @@ def _by_middle(
     )  # fmt: skip
     as_wide = p.wider * np.maximum(plants.diameter, 0.01) / ahead + p.edge_px * scale
     size = np.log(((boxes[:, 2] - boxes[:, 0]) / camera.fx)[:, None] / as_wide[None])
-    total = (across / across_std[None]) ** 2 + (size / p.size) ** 2
+    total = (across / across_std[None]) ** 2 + np.minimum((size / p.size) ** 2, 2.0 * p.most_size)
     doubt = np.minimum(-np.log(np.maximum(plants.sureness, 1e-6)), p.sureness)
     out_of_reach = (x < 0.3) | (np.hypot(x, y) > p.reach)
     return np.where(out_of_reach[None], 2.0 * p.alone + 1.0, 0.5 * total + doubt[None])

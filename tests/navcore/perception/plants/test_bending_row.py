@@ -90,6 +90,12 @@ def test_a_next_line_that_stands_further_out_moves_the_middle_by_less_than_a_cen
     assert fitted(np.vstack((seen, beyond))).offset == pytest.approx(fitted(seen).offset, abs=0.01)  # m
 
 
+def test_an_upright_that_may_be_a_weed_tells_nothing_of_the_next_line() -> None:
+    seen, beyond = plants(0.0 * AHEAD, 0.05), plants(0.0 * AHEAD + WIDTH, 0.15, 7)[: len(AHEAD)]
+    beyond[:, 3] = 0.6
+    assert fitted(np.vstack((seen, beyond))).offset == pytest.approx(fitted(seen).offset, abs=1e-12)
+
+
 def _seen_from(seen: Floats, along: float) -> Floats:
     return seen - (along, 0.0, 0.0, 0.0)
 
