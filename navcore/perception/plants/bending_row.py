@@ -94,7 +94,7 @@ class BendingRow:
     ) -> tuple[Floats, Floats]:  # fmt: skip
         """What is asked for, (3,) about the corridor, over all models, and its covariance."""
         left, right = side > 1.0, side < -1.0
-        basis = np.column_stack((np.ones(len(x)), x, side / 2.0, left, left * x, right, right * x))
+        basis: Floats = np.column_stack((np.ones(len(x)), x, side / 2.0, left, left * x, right, right * x))
         smooth, to_asked = self._smooth(x, x), self._smooth(self._asked_x, x) * self._is_middle[:, None]
         line = basis @ self._prior @ basis.T
         seen = line + self._bend * smooth + np.eye(len(x)) * doubt * (self._scatter + variance)
