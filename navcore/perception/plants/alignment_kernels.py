@@ -84,5 +84,6 @@ def _step(
     H[2, 0], H[2, 1] = H[0, 2], H[1, 2]
     back = predicted - pose
     back[2] -= math.tau * round(back[2] / math.tau)
-    moved = pose + np.linalg.solve(H, g + information * back)
-    return moved.astype(np.float64)
+    step = np.empty(3)
+    step[:] = np.linalg.solve(H, g + information * back)
+    return pose + step

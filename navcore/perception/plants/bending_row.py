@@ -93,8 +93,8 @@ class BendingRow:
         self, x: Floats, side: Floats, off: Floats, variance: Floats, doubt: Floats
     ) -> tuple[Floats, Floats]:  # fmt: skip
         """What is asked for, (3,) about the corridor, over all models, and its covariance."""
-        left, right = side > 1.0, side < -1.0
-        basis: Floats = np.column_stack((np.ones(len(x)), x, side / 2.0, left, left * x, right, right * x))
+        left, right = np.where(side > 1.0, 1.0, 0.0), np.where(side < -1.0, 1.0, 0.0)
+        basis = np.column_stack((np.ones(len(x)), x, side / 2.0, left, left * x, right, right * x))
         smooth, to_asked = self._smooth(x, x), self._smooth(self._asked_x, x) * self._is_middle[:, None]
         line = basis @ self._prior @ basis.T
         seen = line + self._bend * smooth + np.eye(len(x)) * doubt * (self._scatter + variance)
