@@ -47,7 +47,7 @@ class BadInput:
         name: of it. said: events of which one must be on; empty: none may be.
         faults, from_s: of the LiDAR, and since when, s. season, trellis: as the block stands.
         foreign: the map is that of another block, which claims to lie here.
-        right: the matches that are believed must be right all the same.
+        right: the matches that are believed must be right all the same. whole: the whole row is driven.
     """
 
     name: str
@@ -58,12 +58,13 @@ class BadInput:
     trellis: TrellisParams = field(default_factory=TrellisParams)
     foreign: bool = False
     right: bool = True
+    whole: bool = False
 
 
 _NO_PLACE = ("map_unsure", "map_disputed")
 CASES: tuple[BadInput, ...] = (
-    BadInput(name="nothing wrong, winter", said=()),
-    BadInput(name="nothing wrong, full leaf", said=(), season=Season.GROWING),
+    BadInput(name="nothing wrong, winter", said=(), whole=True),
+    BadInput(name="nothing wrong, full leaf", said=(), season=Season.GROWING, whole=True),
     BadInput(name="LiDAR rolled by 5 deg", said=("lidar3d_leans",), faults=Lidar3dFaults(turned=(LEAN, 0.0, 0.0))),
     BadInput(name="LiDAR pitched by 5 deg", said=("lidar3d_leans",), faults=Lidar3dFaults(turned=(0.0, LEAN, 0.0))),
     BadInput(name="LiDAR turned by 5 deg", said=("lidar3d_turned",), faults=Lidar3dFaults(turned=(0.0, 0.0, LEAN))),
@@ -71,9 +72,10 @@ CASES: tuple[BadInput, ...] = (
              from_s=10.0),
     BadInput(name="drops before 4 of 10 rays", said=("lidar3d_drops",), faults=Lidar3dFaults(rain=0.4), from_s=10.0),
     BadInput(name="empty scans", said=("lidar3d_empty",), faults=Lidar3dFaults(empty=True), from_s=10.0),
-    BadInput(name="half of the posts gone", said=("map_outdated",), trellis=TrellisParams(posts_gone=0.5)),
+    BadInput(name="half of the posts gone", said=("map_outdated",), trellis=TrellisParams(posts_gone=0.5),
+             whole=True),
     BadInput(name="half of the posts gone, full leaf", said=("map_outdated",), season=Season.GROWING,
-             trellis=TrellisParams(posts_gone=0.5)),
+             trellis=TrellisParams(posts_gone=0.5), whole=True),
     BadInput(name="map of another block", said=_NO_PLACE, foreign=True, right=False),
 )  # fmt: skip
 
@@ -89,12 +91,12 @@ class Heard:
 def heard(
     block: PearBlock, case: BadInput, ndt_map: NdtMap, turns: int, seed: int, drive: BlockDriveParams
 ) -> Iterator[Heard]:  # fmt: skip
-    """The first turns of a drive down the first row."""
+    """The first `turns` of a drive down the first row, or all of them."""
     params = replace(
         drive, seed=seed, rows=(0,), season=case.season, trellis=case.trellis, faults=case.faults,
         faults_from_s=case.from_s,
     )  # fmt: skip
-    for placed, senses in islice(localized_with(block, params, ndt_map), turns):
+    for placed, senses in islice(localized_with(block, params, ndt_map), None if case.whole else turns):
         on = active_events(map_facts(senses, placed.stamp_ns), EventParams())
         yield Heard(placed=placed, events=frozenset(event.name for event in on))
 

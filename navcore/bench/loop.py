@@ -86,7 +86,10 @@ class LoopBench:
 
     def __init__(self, folder: Path, params: LoopParams, tell: Callable[[str], None]) -> None:
         self._params, self._tell = params, tell
-        self._station = LoopStation(folder, SimulationParams(lidar3d=params.lidar3d))
+        simulation = SimulationParams(lidar3d=params.lidar3d)
+        # Before the station runs, whose processes go first.
+        self._map = map_of(near_the_rows(), simulation) if params.lidar3d else None
+        self._station = LoopStation(folder, simulation)
         self._status = Subscriber(self._station.endpoints, (NAV_STATUS.name,))
         self._browsers: OperatorBrowsers | None = None
         self._imports: ImportLoad | None = None
@@ -119,9 +122,8 @@ class LoopBench:
         ask = self._station.post
         site_id = ask("/api/sites", {"site": _json(site)})["id"]
         ask("/api/robot/site", {"site_id": site_id})
-        if self._params.lidar3d:
-            self._tell("Mapping the farm for the 3D LiDAR")
-            self._station.use_map(site_id, map_of(site, self._station.simulation))
+        if self._map is not None:
+            self._station.use_map(site_id, self._map)
         mission = ask(f"/api/sites/{site_id}/missions/for-row", {"row_id": site.rows[0].id, "exit": "reverse"})
         self._mission = ask(f"/api/sites/{site_id}/missions", {"mission": mission})["id"]
         self._start()

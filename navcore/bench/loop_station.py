@@ -43,7 +43,7 @@ class LoopStation:
         self._process = self._start()
         address = self._address()
         self.origin = address.partition("/enter")[0]
-        self._opener.open(address, timeout=ANSWER_S).close()
+        self._enter(address)
 
     def get(self, path: str) -> Any:
         """The station's answer."""
@@ -106,6 +106,14 @@ class LoopStation:
             time.sleep(POLL_S)
         self.close()
         raise TransportError(f"The station did not start. See {self.folder / 'err.txt'}.")
+
+    def _enter(self, address: str) -> None:
+        try:
+            self._opener.open(address, timeout=ANSWER_S).close()
+        except HTTPError as error:
+            self.close()
+            words = error.read().decode(errors="replace")
+            raise TransportError(f"The station lets nobody in ({error.code}): {words[:200]}") from error
 
     def _send(self, request: Request) -> Any:
         try:
