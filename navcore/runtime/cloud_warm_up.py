@@ -35,7 +35,14 @@ def warm_up() -> None:
 def standing(x: float, y: float) -> Odometry:
     """Of a robot that knows its place to a metre, and its direction to 6 deg."""
     pose = PoseEstimate(
-        stamp_ns=0, x=x, y=y, yaw=0.0, v=0.0, omega=0.0, covariance=tuple(np.diag((1.0, 1.0, 0.01)).ravel().tolist()), source="told"
+        stamp_ns=0,
+        x=x,
+        y=y,
+        yaw=0.0,
+        v=0.0,
+        omega=0.0,
+        covariance=tuple(np.diag((1.0, 1.0, 0.01)).ravel().tolist()),
+        source="told",
     )
     return Odometry(
         stamp_ns=0, x=0.0, y=0.0, yaw=0.0, v=0.0, omega=0.0, roll=0.0, pitch=0.0, pose=pose, quality=FixQuality.SINGLE
