@@ -201,12 +201,8 @@ class MapLocalizer:
 
     def _placed(self, found: Registration, T_odom_base: SE3) -> MapMatch:
         """A place to be confirmed."""
-        self._last, self._confirmed, self._failed, self._overruled = (
-            _Placed(found.T_target_source, T_odom_base),
-            0,
-            0,
-            0,
-        )
+        self._last = _Placed(found.T_target_source, T_odom_base)
+        self._confirmed = self._failed = self._overruled = 0
         self._usual = found.score
         self._start_search.begin_anew()
         return _told(found, MatchState.STARTING, "the place is being confirmed")
