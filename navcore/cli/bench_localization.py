@@ -18,7 +18,7 @@ def bench_localization(
     quick: Annotated[bool, typer.Option("--quick", help="One small block.")] = False,
     as_json: Annotated[bool, typer.Option("--json", help="A JSON list, one row a figure.")] = False,
 ) -> None:
-    """Fixed points by RTK, by a 3D map and by both, winter to full leaf; wrong places noticed, right ones doubted."""
+    """Fixed points by RTK, by a 3D map and by both, winter to full leaf; restarts without GNSS."""
     from navcore.bench.localization_bench import QUICK, LocalizationBenchParams, run_bench
     from navcore.bench.provenance import commit, machine
 

@@ -13,6 +13,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from navcore.geometry.angles import wrap
 from navcore.geometry.se2 import SE2
 from navcore.geometry.se3 import SE3
 from navcore.localization.contest import Contest, ContestParams, Hypothesis
@@ -25,6 +26,7 @@ from navcore.maps.ndt.ndt_map import NdtMap
 
 Floats = NDArray[np.float64]
 NS = 1e-9
+TURNED = 0.3  # rad, that is worth saying
 SEARCHED = "the map is being searched"
 _SETTLING = StartSearchParams(
     reach=0.4,
@@ -160,7 +162,7 @@ class MapStart:
         first, needed = inside[0], self._p.lead_anywhere if region is None else self._p.lead
         better = [other for other in contest.places if contest.lead(other, first) >= self._p.lead]
         if better:
-            return StartLook(None, _elsewhere(_apart(_at(better[0]), _at(first))))
+            return StartLook(None, _elsewhere(_at(better[0]), _at(first)))
         alike = sum(contest.lead(first, other) < needed for other in inside)
         if alike > 1:  # itself is one of them
             return StartLook(None, f"{alike} places look the same", alike)
@@ -169,12 +171,14 @@ class MapStart:
 
 def _nowhere(contest: Contest, region: Region | None) -> str:
     if region is not None and contest.places:
-        return _elsewhere(_apart(_at(contest.places[0]), region.at))
+        return _elsewhere(_at(contest.places[0]), region.at)
     return "the cloud fits nowhere on the 3D map" + ("" if region is None else " near there")
 
 
-def _elsewhere(away: float) -> str:
-    return f"the cloud fits better {away:.0f} m from there: look again where the robot stands"
+def _elsewhere(there: SE2, told: SE2) -> str:
+    away, turned = math.hypot(there.x - told.x, there.y - told.y), abs(wrap(there.yaw - told.yaw))
+    where = f"{away:.0f} m from there" + (f", turned by {math.degrees(turned):.0f} deg" if turned > TURNED else "")
+    return f"the cloud fits better {where}: look again where the robot stands"
 
 
 def _level(points: Floats, T_odom_base: SE3) -> Floats:
@@ -192,10 +196,6 @@ def _tie(eye: BirdsEye, at: SE2, T_odom_base: SE3) -> SE3:
 
 def _at(place: Hypothesis) -> SE2:
     return place.found.T_target_source.se2()
-
-
-def _apart(a: SE2, b: SE2) -> float:
-    return math.hypot(a.x - b.x, a.y - b.y)
 
 
 def _way(a: SE3, b: SE3) -> float:

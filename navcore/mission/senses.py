@@ -62,6 +62,7 @@ class Senses:
         self.pose = self.filter.estimate(inputs.now_ns)
         if self.pose is not None:
             self.check.add_estimate(self.pose)
+            self.placing.forget()
         before, self.T_odom_base = self.T_odom_base, self.filter.odom_at(inputs.now_ns)
         self.attitude.drive(self.T_odom_base.x - before.x, self.T_odom_base.y - before.y, self.T_odom_base.yaw)
         for row in inputs.rows:

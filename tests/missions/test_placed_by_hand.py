@@ -7,10 +7,21 @@ from dataclasses import replace
 
 import pytest
 
+from navcore.drivers.nmea_stream import NmeaStream
 from navcore.localization.map_localizer import MapLocalizer
 from navcore.maps.mission import RowExit
 from navcore.maps.ndt.ndt_map import NdtMap
-from navcore.messages import MatchState, NavMode, Reply, Request, RequestKind, RunState, ToldPlace
+from navcore.messages import (
+    FixQuality,
+    GnssFix,
+    MatchState,
+    NavMode,
+    Reply,
+    Request,
+    RequestKind,
+    RunState,
+    ToldPlace,
+)
 from navcore.planning.mission_planner import mission_for_row, plan_mission
 from navcore.runtime.lockstep import Lockstep, Tick
 from navcore.runtime.simulated_eye import ProjectedEye
@@ -146,6 +157,56 @@ def test_rtk_that_comes_later_and_agrees_changes_nothing(farm_map: NdtMap) -> No
     assert len(off) > 250
     assert max(off) < 0.15  # m
     assert not drive.lockstep.navigator.senses.on_map.disputed
+
+
+class WeakReceiver:
+    """A receiver without corrections: metres off, and its two antennas may agree on a wrong heading."""
+
+    def __init__(self, receiver: NmeaStream, turned: float) -> None:
+        self._receiver, self._turned = receiver, turned
+
+    def feed(self, data: bytes, received_ns: int) -> tuple[GnssFix, ...]:
+        return tuple(self._weak(fix) for fix in self._receiver.feed(data, received_ns))
+
+    def _weak(self, fix: GnssFix) -> GnssFix:
+        lat_deg = None if fix.lat_deg is None else fix.lat_deg + 2.5 / 111_200.0
+        heading = None if fix.heading_rad is None else fix.heading_rad + self._turned
+        return replace(
+            fix, quality=FixQuality.SINGLE, lat_deg=lat_deg, std_east_m=1.5, std_north_m=1.5, heading_rad=heading
+        )
+
+
+def with_weak_gnss(farm_map: NdtMap, turned: float) -> Drive:
+    drive = parked(farm_map)
+    drive.lockstep.world.faults = replace(drive.lockstep.world.faults, gnss_silent=False)
+    drive.lockstep.receiver = WeakReceiver(drive.lockstep.receiver, turned)  # type: ignore[assignment]
+    return drive
+
+
+def off_by(tick: Tick) -> float:
+    pose = tick.decision.status.pose
+    return math.inf if pose is None else math.dist((pose.x, pose.y), (tick.truth.x, tick.truth.y))
+
+
+def test_fixes_without_corrections_tell_where_to_search_and_the_map_tells_the_place(farm_map: NdtMap) -> None:
+    drive = with_weak_gnss(farm_map, turned=0.0)
+    first = drive.until(lambda tick: tick.decision.status.pose is not None, seconds=3)
+    assert off_by(first) > 2.0  # m
+    last = drive.until(lambda tick: off_by(tick) < 0.1, seconds=8)
+    assert off_by(last) < 0.1  # m
+    assert all(off_by(tick) < 0.15 for tick in (drive.lockstep.tick() for _ in range(100)))  # m
+
+
+def test_a_word_stands_against_a_receiver_that_looks_the_wrong_way(farm_map: NdtMap) -> None:
+    drive = with_weak_gnss(farm_map, turned=0.4)
+    drive.until(lambda _: False, seconds=5)
+    assert "place_unknown" in events(drive.ticks[-1])
+    assert press(drive).accepted
+    last = drive.until(lambda tick: off_by(tick) < 0.1, seconds=8)
+    assert off_by(last) < 0.1  # m
+    pose = last.decision.status.pose
+    assert pose is not None
+    assert abs(math.remainder(pose.yaw - last.truth.yaw, 2 * math.pi)) < 0.02  # rad
 
 
 def test_told_nothing_only_a_match_that_may_be_believed_starts_the_pose(farm_map: NdtMap) -> None:
