@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from navcore.bench.valid_frames import wilson
+from navcore.bench.wilson import wilson
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -11,7 +11,7 @@ from navcore.cli.figure_lines import lines as _lines
 from navcore.cli.figure_lines import report as _report
 
 if TYPE_CHECKING:
-    from navcore.bench.mission_result import MissionResult
+    from navcore.bench.mission.result import MissionResult
 
 BAD_INPUT = 2
 bench_app = typer.Typer(help="Measure the robot.", no_args_is_help=True)
@@ -40,9 +40,9 @@ def bench_mission(
     """Whole missions in simulated time on farms unseen in tuning, with everything unkind on, and on GNSS alone."""
     import tempfile
 
-    from navcore.bench.mission import run_bench
-    from navcore.bench.mission_cases import CaseParams, EyeKind, Farms
-    from navcore.bench.mission_figures import mission_figures
+    from navcore.bench.mission.cases import CaseParams, EyeKind, Farms
+    from navcore.bench.mission.figures import mission_figures
+    from navcore.bench.mission.mission import run_bench
     from navcore.errors import InputError
 
     try:
@@ -73,8 +73,8 @@ def bench_detector(
     import tempfile
     from dataclasses import replace
 
-    from navcore.bench.detector import QUICK, DetectorBenchParams, run_bench
-    from navcore.bench.detector_figures import detector_figures
+    from navcore.bench.detector.detector import QUICK, DetectorBenchParams, run_bench
+    from navcore.bench.detector.figures import detector_figures
     from navcore.bench.provenance import commit, machine
     from navcore.errors import RowpilotError
 
@@ -97,8 +97,8 @@ def bench_rows(
 ) -> None:
     """Row fits as published and ours on the same frames: in rows, near their ends, and where there is none."""
     from navcore.bench.provenance import commit, machine
-    from navcore.bench.rows import QUICK, RowsBenchParams, run_bench
-    from navcore.bench.rows_figures import rows_figures
+    from navcore.bench.rows.figures import rows_figures
+    from navcore.bench.rows.rows import QUICK, RowsBenchParams, run_bench
 
     result = run_bench(QUICK if quick else RowsBenchParams(), lambda line: typer.echo(line, err=True))
     figures, made = rows_figures(result), (commit(), machine())
@@ -118,15 +118,15 @@ def bench_fusion(
     import tempfile
     from dataclasses import replace
 
-    from navcore.bench.calibration_bench import QUICK, CalibrationBenchParams
-    from navcore.bench.calibration_bench import run_bench as run_calibration
-    from navcore.bench.cluster_bench import cluster_figures
-    from navcore.bench.fusion import QUICK_DRIVES, FusionBenchParams, drive_all
-    from navcore.bench.fusion_figures import drive_figures
-    from navcore.bench.line_fit_bench import line_fit_figures
-    from navcore.bench.mission_cases import EyeKind
+    from navcore.bench.fusion.calibration import QUICK, CalibrationBenchParams
+    from navcore.bench.fusion.calibration import run_bench as run_calibration
+    from navcore.bench.fusion.clusters import cluster_figures
+    from navcore.bench.fusion.figures import drive_figures
+    from navcore.bench.fusion.fusion import QUICK_DRIVES, FusionBenchParams, drive_all
+    from navcore.bench.fusion.line_fit import line_fit_figures
+    from navcore.bench.fusion.segment_cases import segment_cases
+    from navcore.bench.mission.cases import EyeKind
     from navcore.bench.provenance import commit, machine
-    from navcore.bench.segment_cases import segment_cases
 
     def tell(line: str) -> None:
         typer.echo(line, err=True)
@@ -150,7 +150,7 @@ def bench_ndt(
     as_json: Annotated[bool, typer.Option("--json", help="A JSON list, one row a figure.")] = False,
 ) -> None:
     """A 3D LiDAR's scans laid onto a map of winter: ours, NDT as published and small_gicp, simulated pear blocks."""
-    from navcore.bench.ndt_bench import QUICK, NdtBenchParams, run_bench
+    from navcore.bench.lidar3d.ndt import QUICK, NdtBenchParams, run_bench
     from navcore.bench.provenance import commit, machine
 
     figures = run_bench(QUICK if quick else NdtBenchParams(), lambda line: typer.echo(line, err=True))
@@ -166,8 +166,8 @@ def bench_mapping(
     """Maps of simulated pear blocks: distances between surveyed posts, scans a second, memory by area."""
     import tempfile
 
-    from navcore.bench.mapping_bench import QUICK, MappingBenchParams, mapping_figures, run_bench
-    from navcore.bench.mapping_closure import closure_figures, closures
+    from navcore.bench.lidar3d.mapping import QUICK, MappingBenchParams, mapping_figures, run_bench
+    from navcore.bench.lidar3d.mapping_closure import closure_figures, closures
     from navcore.bench.provenance import commit, machine
 
     def tell(line: str) -> None:
@@ -187,8 +187,8 @@ def bench_trellis(
     as_json: Annotated[bool, typer.Option("--json", help="A JSON list, one row a figure.")] = False,
 ) -> None:
     """Posts, wires and rows found by a 3D LiDAR, season by season, beside the published filters."""
+    from navcore.bench.lidar3d.trellis import QUICK, TrellisBenchParams, trellis_figures
     from navcore.bench.provenance import commit, machine
-    from navcore.bench.trellis_bench import QUICK, TrellisBenchParams, trellis_figures
 
     found = trellis_figures(QUICK if quick else TrellisBenchParams(), lambda line: typer.echo(line, err=True))
     figures, made = tuple(found), (commit(), machine())

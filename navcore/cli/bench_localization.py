@@ -19,7 +19,7 @@ def bench_localization(
     as_json: Annotated[bool, typer.Option("--json", help="A JSON list, one row a figure.")] = False,
 ) -> None:
     """Fixed points by RTK, by a 3D map and by both, winter to full leaf; restarts without GNSS."""
-    from navcore.bench.localization_bench import QUICK, LocalizationBenchParams, run_bench
+    from navcore.bench.lidar3d.localization import QUICK, LocalizationBenchParams, run_bench
     from navcore.bench.provenance import commit, machine
 
     figures = run_bench(QUICK if quick else LocalizationBenchParams(), lambda line: typer.echo(line, err=True))

@@ -10,7 +10,7 @@ import typer
 from navcore.cli.figure_lines import lines, report
 
 if TYPE_CHECKING:
-    from navcore.bench.loop import LoopParams, Phase
+    from navcore.bench.loop.loop import LoopParams, Phase
 
 
 def register(bench_app: typer.Typer) -> None:
@@ -31,7 +31,7 @@ def bench_loop(
     """The whole station in real time: ticks, lateness, from picture to CAN frame, from stop click to zero."""
     from dataclasses import replace
 
-    from navcore.bench.loop import QUICK, LoopParams
+    from navcore.bench.loop.loop import QUICK, LoopParams
     from navcore.errors import RowpilotError
 
     params = replace(QUICK if quick else LoopParams(), browsers=browsers, imports=imports)
@@ -48,7 +48,7 @@ def _measure(params: LoopParams, as_json: bool, *, lidar3d: bool) -> None:
     import tempfile
     from dataclasses import replace
 
-    from navcore.bench.loop_figures import lidar3d_figures, loop_figures
+    from navcore.bench.loop.figures import lidar3d_figures, loop_figures
     from navcore.bench.provenance import commit, machine
 
     folder = Path(tempfile.mkdtemp(prefix="rowpilot-loop-"))
@@ -63,7 +63,7 @@ def _measure(params: LoopParams, as_json: bool, *, lidar3d: bool) -> None:
 def _driven_loop(folder: Path, params: LoopParams) -> tuple[Phase, ...]:
     from contextlib import closing
 
-    from navcore.bench.loop import LoopBench
+    from navcore.bench.loop.loop import LoopBench
 
     with closing(LoopBench(folder, params, lambda line: typer.echo(line, err=True))) as bench:
         return bench.run()

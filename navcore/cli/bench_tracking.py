@@ -32,10 +32,10 @@ def bench_tracking(
     import tempfile
 
     from navcore.bench.provenance import commit, machine
-    from navcore.bench.tracking import drive_all
-    from navcore.bench.tracking_cases import QUICK, Localization, TrackingCaseParams, tracking_cases
-    from navcore.bench.tracking_figures import tracking_figures
-    from navcore.bench.tracking_plot import tracking_plot
+    from navcore.bench.tracking.cases import QUICK, Localization, TrackingCaseParams, tracking_cases
+    from navcore.bench.tracking.figures import tracking_figures
+    from navcore.bench.tracking.plot import tracking_plot
+    from navcore.bench.tracking.tracking import drive_all
 
     folder = resume or Path(tempfile.mkdtemp(prefix="rowpilot-tracking-"))
     typer.echo(f"Drives are kept in {folder}", err=True)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 if TYPE_CHECKING:
-    from navcore.bench.evaluate import Deviation, Evaluation
+    from navcore.bench.evaluate.evaluate import Deviation, Evaluation
 
 BAD_INPUT = 2
 
@@ -27,8 +27,8 @@ def evaluate_run(
     as_json: Annotated[bool, typer.Option("--json", help="One JSON object.")] = False,
 ) -> None:
     """Score a run against the truth: of the simulator, as logged, or of a survey given with --truth."""
-    from navcore.bench.evaluate import evaluate
-    from navcore.bench.evaluate_log import read_record
+    from navcore.bench.evaluate.evaluate import evaluate
+    from navcore.bench.evaluate.log import read_record
     from navcore.errors import InputError
 
     try:

@@ -6,9 +6,9 @@ from dataclasses import dataclass, field
 
 from navcore.geometry.geodesy import EnuFrame
 from navcore.geometry.se2 import SE2
-from navcore.localization.map_watch import MapWatch, MapWatchParams
+from navcore.localization.lidar3d.map_watch import MapWatch, MapWatchParams
+from navcore.localization.lidar3d.travel_direction import TravelDirection, TravelDirectionParams
 from navcore.localization.row_line import RowLine
-from navcore.localization.travel_direction import TravelDirection, TravelDirectionParams
 from navcore.messages import FixQuality, GnssFix, MapMatch, MatchState, RowObservation
 
 NS = 1e-9

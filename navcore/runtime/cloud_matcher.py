@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 
 from navcore.geometry.se2 import SE2
 from navcore.geometry.se3 import SE3
-from navcore.localization.air_points import AirPoints
-from navcore.localization.deskew import Deskew
-from navcore.localization.ground_lean import GroundLean
-from navcore.localization.map_localizer import MapLocalizer
+from navcore.localization.lidar3d.air_points import AirPoints
+from navcore.localization.lidar3d.deskew import Deskew
+from navcore.localization.lidar3d.ground_lean import GroundLean
+from navcore.localization.lidar3d.map_localizer import MapLocalizer
 from navcore.localization.motion_track import MotionTrack
 from navcore.messages import LidarCondition, MapMatch, MatchState, Odometry
 from navcore.runtime.clouds import StampedCloud

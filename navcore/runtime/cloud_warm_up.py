@@ -6,7 +6,7 @@ import numpy as np
 
 from navcore.geometry.lidar_mount import robot_lidar3d
 from navcore.geometry.se3 import SE3
-from navcore.localization.map_localizer import MapLocalizer
+from navcore.localization.lidar3d.map_localizer import MapLocalizer
 from navcore.maps.ndt.ndt_map import NdtMap
 from navcore.messages import FixQuality, Odometry, PoseEstimate
 from navcore.sim.lidar3d import C16, Lidar3d

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from navcore.errors import InputError
-from navcore.localization.map_localizer import MapLocalizer
+from navcore.localization.lidar3d.map_localizer import MapLocalizer
 from navcore.maps.ndt.ndt_file import read_ndt_map
 from navcore.maps.site_map import Datum
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from navcore.geometry.lidar_mount import LidarMount
-from navcore.localization.map_localizer import MapLocalizer
+from navcore.localization.lidar3d.map_localizer import MapLocalizer
 from navcore.messages import MapMatch, Odometry, SimTruth
 from navcore.runtime.cloud_matcher import CloudMatcher
 from navcore.runtime.clouds import StampedCloud

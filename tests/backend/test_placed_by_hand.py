@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 from fastapi.testclient import TestClient
 
-from navcore.localization.map_localizer import MapLocalizer
+from navcore.localization.lidar3d.map_localizer import MapLocalizer
 from navcore.runtime.lockstep import Lockstep
 from navcore.runtime.simulated_eye import ProjectedEye
 from navcore.runtime.simulated_map_eye import SimulatedMapEye

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from navcore.bench.known_map import known_map
+from navcore.bench.lidar3d.known_map import known_map
 from navcore.geometry.lidar_mount import robot_lidar3d
 from navcore.maps.ndt.ndt_map import NdtMap
 from navcore.sim.lidar3d import C16

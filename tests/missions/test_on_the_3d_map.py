@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from navcore.localization.map_localizer import MapLocalizer
+from navcore.localization.lidar3d.map_localizer import MapLocalizer
 from navcore.maps.mission import RowExit
 from navcore.maps.ndt.ndt_map import NdtMap
 from navcore.maps.site_map import SiteMap

@@ -8,7 +8,7 @@ from dataclasses import replace
 import pytest
 
 from navcore.drivers.nmea_stream import NmeaStream
-from navcore.localization.map_localizer import MapLocalizer
+from navcore.localization.lidar3d.map_localizer import MapLocalizer
 from navcore.maps.mission import RowExit
 from navcore.maps.ndt.ndt_map import NdtMap
 from navcore.messages import (

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from navcore.geometry.point_cloud import PointCloud
 from navcore.geometry.se3 import SE3
 from navcore.geometry.voxel_means import voxel_means
-from navcore.localization.deskew import Deskew, DeskewParams
+from navcore.localization.lidar3d.deskew import Deskew, DeskewParams
 from navcore.localization.motion_track import MotionTrack
 from navcore.mapping.lidar3d.drive import Drive, Sensed
 from navcore.mapping.lidar3d.fix_placing import FixPlacer, FixPlacerParams
