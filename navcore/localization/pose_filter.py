@@ -152,18 +152,12 @@ class PoseFilter:
         belief = self._history.at(now_ns)
         if belief is None:
             return None
-        velocity = self._motion.velocity(belief)
+        velocity, (x, y, yaw) = self._motion.velocity(belief), map(float, belief.mean[[X, Y, YAW]])
         covariance = belief.cov[: YAW + 1, : YAW + 1]
         return PoseEstimate(
-            stamp_ns=now_ns,
-            x=float(belief.mean[X]),
-            y=float(belief.mean[Y]),
-            yaw=float(belief.mean[YAW]),
-            v=velocity.v,
-            omega=velocity.omega,
-            covariance=tuple(float(c) for c in covariance.ravel()),
-            source=self._source(belief),
-        )
+            stamp_ns=now_ns, x=x, y=y, yaw=yaw, v=velocity.v, omega=velocity.omega,
+            covariance=tuple(float(c) for c in covariance.ravel()), source=self._source(belief),
+        )  # fmt: skip
 
     def lean(self, roll: float) -> None:
         """How far the robot leans to the side against gravity, rad, left side up: on a slope it creeps downhill."""
