@@ -31,8 +31,9 @@ from navcore.messages import (
 )
 from navcore.mission.camera_orders import camera_request
 from navcore.mission.driver import Driver, DriverParams, Driving
-from navcore.mission.event_facts import EventParams
-from navcore.mission.events import Event, active_events, effects_of
+from navcore.mission.events.event import Event, effects_of
+from navcore.mission.events.facts import EventParams
+from navcore.mission.events.table import active_events
 from navcore.mission.evidence import NS, GnssEvidence, GnssEvidenceParams
 from navcore.mission.guard_orders import GuardOrders
 from navcore.mission.map_evidence import MapEvidence, MapEvidenceParams

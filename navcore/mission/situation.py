@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from navcore.messages import LinkLossPolicy, NavMode, RunState, SegmentKind
 from navcore.mission.driver import Driving
-from navcore.mission.event_facts import EventFacts
+from navcore.mission.events.facts import EventFacts
 from navcore.mission.evidence import NS
 from navcore.mission.mode_selector import CARRIED
 from navcore.mission.pilot import Pilot

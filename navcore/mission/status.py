@@ -5,8 +5,8 @@ from __future__ import annotations
 from navcore.geometry.angles import wrap
 from navcore.messages import ActiveEvent, NavStatus
 from navcore.mission.driven_pose import driven_pose
-from navcore.mission.event_facts import EventFacts
-from navcore.mission.events import Event
+from navcore.mission.events.event import Event
+from navcore.mission.events.facts import EventFacts
 from navcore.mission.ghosts import ghosts
 from navcore.mission.situation import Situation
 from navcore.mission.state_machine import Effect

@@ -22,8 +22,8 @@ from navcore.maps.ndt.ndt_file import ndt_map_bytes
 from navcore.maps.ndt.ndt_map import NdtMap
 from navcore.maps.site_map import Datum
 from navcore.messages import LinkLossPolicy, NavMode, RunState
-from navcore.mission.event_facts import EventFacts, EventParams
-from navcore.mission.events import active_events
+from navcore.mission.events.facts import EventFacts, EventParams
+from navcore.mission.events.table import active_events
 from navcore.mission.senses import Senses
 from navcore.runtime.map_file import MapFile
 from navcore.sim.block_drive import START_NS, BlockDriveParams

@@ -19,8 +19,9 @@ from navcore.messages import (
     NavMode,
     RunState,
 )
-from navcore.mission.event_facts import EventFacts, EventParams
-from navcore.mission.events import EVENTS, active_events, effects_of
+from navcore.mission.events.event import effects_of
+from navcore.mission.events.facts import EventFacts, EventParams
+from navcore.mission.events.table import EVENTS, active_events
 from navcore.mission.state_machine import Effect
 
 PARAMS = EventParams()

@@ -7,7 +7,7 @@ from __future__ import annotations
 import math
 
 from navcore.messages import LidarCondition
-from navcore.mission.event_facts import EventFacts, EventParams
+from navcore.mission.events.facts import EventFacts, EventParams
 
 _MEND = "its mount has moved. Straighten it, or correct its mount in the settings."
 

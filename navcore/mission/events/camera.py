@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from navcore.mission.event_facts import EventFacts, EventParams
+from navcore.mission.events.facts import EventFacts, EventParams
 
 
 def is_askew(f: EventFacts, p: EventParams) -> bool:

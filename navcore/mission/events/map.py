@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from navcore.messages import NavMode, RunState
-from navcore.mission.event_facts import EventFacts, EventParams
+from navcore.mission.events.facts import EventFacts, EventParams
 
 
 def is_map_unsure(f: EventFacts, p: EventParams) -> bool:
