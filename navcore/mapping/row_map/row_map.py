@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Sequence, Sized
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -123,16 +123,20 @@ def _zones(headlands: list[Headland], block: int) -> tuple[Zone, ...]:
 
 def _no_rows(trellis: TrellisReference) -> str:
     return (
-        f"{len(trellis.posts)} posts stand in {len(trellis.lines)} lines, and no two lines lie side by side 1.2 to "
+        f"{_count(trellis.posts, 'post')} in {_count(trellis.lines, 'line')}, and no two lines lie side by side 1.2 to "
         "12 m apart, so there is no row to drive. Map the alley between two lines of posts."
     )
 
 
 def _summary(trellis: TrellisReference, found: RowMap) -> str:
     return (
-        f"{len(trellis.posts)} posts in {len(trellis.lines)} lines and {len(trellis.trunks)} trunks make "
-        f"{len(found.rows)} row{'s' if len(found.rows) != 1 else ''} to drive."
+        f"{_count(trellis.posts, 'post')} in {_count(trellis.lines, 'line')} and {_count(trellis.trunks, 'trunk')} "
+        f"make {_count(found.rows, 'row')} to drive."
     )
+
+
+def _count(things: Sized, name: str) -> str:
+    return f"{len(things)} {name}{'' if len(things) == 1 else 's'}"
 
 
 def _spacing_notes(rows: tuple[Row, ...], params: RowMapParams) -> list[str]:
