@@ -123,8 +123,8 @@ def _zones(headlands: list[Headland], block: int) -> tuple[Zone, ...]:
 
 def _no_rows(trellis: TrellisReference) -> str:
     return (
-        f"{_count(trellis.posts, 'post')} in {_count(trellis.lines, 'line')}, and no two lines lie side by side 1.2 to "
-        "12 m apart, so there is no row to drive. Map the alley between two lines of posts."
+        f"{_count(trellis.posts, 'post')} in {_count(trellis.lines, 'line')}, and no two lines lie side by side "
+        "1.2 to 12 m apart, so there is no row to drive. Map the alley between two lines of posts."
     )
 
 
