@@ -31,9 +31,8 @@ class BoxAssociationParams:
         mount_deg: of the bearing between the two sensors, deg.
         lean: by so much a trunk stands aside at the scan's height of where its foot is, m.
         pitch_deg: of the camera's pitch about what is told; range_share: of a foot's distance beside that.
-        wider, edge_px: a box is so many times as wide as the plant's diameter, for trunks sway and fork, and by so
-            much more at its edges, pixels at 640 px image width. size: 1-sigma of the logarithm of its width.
-        most_size: no more counts against a box of another width, in the measure of `alone`: trunks are half hidden.
+        wider: logarithm of how much wider a box is than the plant's diameter: trunks sway and fork, and a scan misses
+            the edges of thin ones far away. size: 1-sigma of it.
         reach: plants further away than that have no box, m.
         sureness: at most so much counts against a plant that is hardly a trunk, in the measure of `alone`.
         alone: half the squared distance beyond which an object has no plant.
@@ -47,16 +46,14 @@ class BoxAssociationParams:
     lean: float = 0.03
     pitch_deg: float = 0.7
     range_share: float = 0.06
-    wider: float = 1.65
-    edge_px: float = 4.5
-    size: float = 0.3
-    most_size: float = 1.5
+    wider: float = 0.65
+    size: float = 0.35
     reach: float = 12.0
     sureness: float = 3.0
     alone: float = 6.0
     fewest: int = 4
     known_pitch: float = 0.4
-    clear: float = 1.0
+    clear: float = 1.5
 
 
 def associate(
@@ -122,9 +119,9 @@ def _by_middle(
     across_std = np.sqrt(
         (p.box_px * scale) ** 2 + math.radians(p.mount_deg) ** 2 + (plants.std**2 + p.lean**2) / ahead**2
     )  # fmt: skip
-    as_wide = p.wider * np.maximum(plants.diameter, 0.01) / ahead + p.edge_px * scale
-    size = np.log(((boxes[:, 2] - boxes[:, 0]) / camera.fx)[:, None] / as_wide[None])
-    total = (across / across_std[None]) ** 2 + np.minimum((size / p.size) ** 2, 2.0 * p.most_size)
+    told_size = np.maximum(plants.diameter, 0.01) / ahead
+    size = np.log(((boxes[:, 2] - boxes[:, 0]) / camera.fx)[:, None] / told_size[None])
+    total = (across / across_std[None]) ** 2 + ((size - p.wider) / p.size) ** 2
     doubt = np.minimum(-np.log(np.maximum(plants.sureness, 1e-6)), p.sureness)
     out_of_reach = (x < 0.3) | (np.hypot(x, y) > p.reach)
     return np.where(out_of_reach[None], 2.0 * p.alone + 1.0, 0.5 * total + doubt[None])

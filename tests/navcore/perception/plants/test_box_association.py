@@ -76,15 +76,3 @@ def test_near_feet_tell_the_pitch_by_which_far_plants_are_found() -> None:
     nodding = replace(CAMERA, pitch=CAMERA.pitch + 0.035)
     row = (*ROW, (7.0, 1.3), (7.1, -1.3))
     assert pairs(boxed(row, nodding), scanned(row)).tolist() == list(range(8))
-
-
-def test_the_edges_of_a_box_make_thin_trunks_far_away_look_thicker() -> None:
-    """A trunk of 5 cm is 4 pixels wide there, and its box 11: it is no trunk of 11 cm that stands beside it."""
-    thin, thick = scanned(((7.0, 1.30),), 0.05), scanned(((7.0, 1.36),), 0.12)
-    both = ScannedPlants(
-        number=np.arange(2), xy=np.vstack((thin.xy, thick.xy)), std=np.full(2, 0.01),
-        diameter=np.array((0.05, 0.12)), hits=np.full(2, 20), sureness=np.full(2, 0.9), height=0.55,
-    )  # fmt: skip
-    box = boxed(((7.0, 1.33),))[0]
-    middle = (box.x1 + box.x2) / 2.0
-    assert pairs((replace(box, x1=middle - 5.5, x2=middle + 5.5),), both).tolist() == [0]
