@@ -11,6 +11,8 @@ from navcore.bench.figure_file import MadeFigure
 LABEL_PX, AXIS_PX, ROW_PX, EDGE_PX = 390, 400, 22, 26
 # Steps of an axis, at most about.
 STEPS = 6
+# What differs by less is drawn as one.
+LEAST = 1e-9
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,7 +80,7 @@ def _numbers(figure: MadeFigure) -> list[float]:
 def _axis(least: float, most: float, *, share: bool) -> Axis:
     """Round numbers. Shares end at 100 %, and everything else begins at 0 unless it is less."""
     low, high = (0.0 if least < 0.5 else least, 1.0) if share else (min(0.0, least), max(most, 0.0))
-    step = _round_step((high - low or 1.0) / STEPS)
+    step = _round_step((high - low if high - low > LEAST else 1.0) / STEPS)
     low, high = step * math.floor(low / step + 1e-9), step * math.ceil(high / step - 1e-9)
     return Axis(low, high if high > low else low + step, step)
 

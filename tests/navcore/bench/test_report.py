@@ -8,7 +8,7 @@ from html.parser import HTMLParser
 from pathlib import Path
 
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 from typer.testing import CliRunner
 
@@ -107,6 +107,7 @@ def test_markdown_holds_one_line_a_figure(file: FigureFile) -> None:
     ]  # fmt: skip
 
 
+@example([0.0, 5e-324], None, "m")
 @given(
     st.lists(st.floats(-5.0, 1e6), min_size=1, max_size=5),
     st.none() | st.floats(0.0, 1e4),

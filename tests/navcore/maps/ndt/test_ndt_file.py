@@ -108,5 +108,6 @@ def test_a_header_that_lies_is_refused(old: bytes, new: bytes) -> None:
 def test_a_file_that_cannot_be_read_or_written_is_told(tmp_path: Path) -> None:
     with pytest.raises(NdtMapError, match="cannot be read"):
         read_ndt_map(tmp_path / "none.ndt")
+    (tmp_path / "no folder").write_bytes(b"")
     with pytest.raises(NdtMapError, match="cannot be written"):
         write_ndt_map(tmp_path / "no folder" / "a.ndt", NdtMap())
