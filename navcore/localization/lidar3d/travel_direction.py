@@ -31,11 +31,16 @@ class TravelDirectionParams:
 
 
 class TravelDirection:
-    """Fed with places on the map and by odometry."""
+    """Fed with places on the map and by odometry.
+
+    Attributes:
+        turned: how far the LiDAR looks to the left of where its mount says, rad; None before enough was driven.
+    """
 
     def __init__(self, params: TravelDirectionParams = TravelDirectionParams()) -> None:
         self._p = params
-        self._turned: deque[float] = deque(maxlen=params.looks)
+        self.turned: float | None = None
+        self._looks: deque[float] = deque(maxlen=params.looks)
         self._last: tuple[SE2, SE2] | None = None
 
     def add(self, T_map_base: SE2, T_odom_base: SE2) -> None:
@@ -48,13 +53,9 @@ class TravelDirection:
             return
         self._last = (T_map_base, T_odom_base)
         if abs(driven.yaw) <= self._p.straight and math.hypot(moved.x, moved.y) > 0.0:
-            self._turned.append(wrap(math.atan2(driven.y, driven.x) - math.atan2(moved.y, moved.x)))
+            self._looks.append(wrap(math.atan2(driven.y, driven.x) - math.atan2(moved.y, moved.x)))
+            self.turned = median(self._looks) if len(self._looks) >= self._p.few else None
 
     def pause(self) -> None:
         """The places end here; what follows is not compared with them."""
         self._last = None
-
-    @property
-    def turned(self) -> float | None:
-        """How far the LiDAR looks to the left of where its mount says, rad; None before enough was driven."""
-        return median(self._turned) if len(self._turned) >= self._p.few else None
