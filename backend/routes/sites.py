@@ -53,6 +53,7 @@ def delete_site(station: TheStation, site_id: PathId) -> None:
     """Delete a site, its missions, its picture and its 3D maps. Runs stay."""
     picture = station.sites.delete(site_id)
     station.map3d_jobs.stop_site(site_id)
+    station.map3d_in_use.stop(site_id)
     station.maps3d.delete_site(site_id)
     if picture is not None:
         station.pictures.delete(picture)

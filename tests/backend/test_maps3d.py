@@ -105,3 +105,16 @@ def test_only_names_of_ours_are_handed_out(client: TestClient, ended: dict[str, 
     answer = client.get(f"/api/sites/{ended['site_id']}/maps3d/{ended['id']}/files/rowpilot.sqlite3")
     assert answer.status_code == 404
     assert client.delete(f"/api/sites/{ended['site_id']}/maps3d/{'0' * 16}").status_code == 404
+
+
+def test_a_farm_that_is_deleted_leaves_the_robot_no_map(
+    client: TestClient, station: Station, ready: dict[str, Any]
+) -> None:
+    site_id = client.get("/api/sites").json()[0]["id"]
+    robot = station.settings.data_dir / "robot"
+    robot.mkdir(parents=True, exist_ok=True)
+    given = [robot / f"{site_id}.ndt", robot / f"{site_id}.ndt.run"]
+    for path in given:
+        path.write_bytes(b"a map")
+    assert client.delete(f"/api/sites/{site_id}").status_code == 204
+    assert not any(path.exists() for path in given)
