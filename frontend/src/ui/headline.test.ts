@@ -24,8 +24,9 @@ describe("the headline says what the robot drives on", () => {
     expect(headline({ ...STATUS, state: "stopped", mode: "row" })).toBe("Stopped"));
 });
 
-test("a stopped robot says why it was stopped, a driving one why it drives so", () => {
+test("a stopped robot says why it was stopped, a driving one why it drives so, a finished one nothing", () => {
   const driving = { ...STATUS, mode_reason: "by GNSS", stop_reason: "" };
   expect(why(driving)).toBe("By GNSS");
   expect(why({ ...driving, stop_reason: "The emergency stop is pressed." })).toBe("The emergency stop is pressed.");
+  expect(why({ ...driving, state: "finished" })).toBe("");
 });

@@ -29,8 +29,8 @@ function drivingWords(status: NavStatus, names?: ReadonlyMap<string, string>): s
   }
 }
 
-/** Why it does what it does; of a stopped robot, why it was stopped; a robot without a mission has no reasons. */
+/** Why it does what it does; of a stopped robot, why it was stopped; one without a mission, or at its end, has no reasons. */
 export function why({ state, stop_reason, mode_reason }: NavStatus): string {
-  const reason = state === "idle" ? "" : stop_reason || mode_reason;
+  const reason = state === "idle" || state === "finished" ? "" : stop_reason || mode_reason;
   return reason.charAt(0).toUpperCase() + reason.slice(1);
 }
