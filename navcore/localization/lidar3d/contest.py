@@ -99,7 +99,7 @@ class Contest:
             place.T_map_odom = place.found.T_target_source @ T_odom_base.inverse()
         self.places = [place for place in self.places if place.found.reason is None]
         self._drop_twins()
-        anew = self._stood is None or _away(self._stood, T_odom_base) >= self._p.step
+        anew = self._stood is None or away(self._stood, T_odom_base) >= self._p.step
         self._stood = T_odom_base if anew or self._stood is None else self._stood
         for place, patches in zip(self.places, self._patches(points), strict=True):
             place.seen = [*(place.seen if anew else place.seen[:-1]), patches][-self._p.standpoints :]
@@ -128,8 +128,9 @@ class Contest:
 
     def _same(self, one: Hypothesis, other: Hypothesis) -> bool:
         a, b = one.found.T_target_source, other.found.T_target_source
-        return _away(a, b) < self._p.apart and (a.inverse() @ b).angle() < self._p.apart_turn
+        return away(a, b) < self._p.apart and (a.inverse() @ b).angle() < self._p.apart_turn
 
 
-def _away(a: SE3, b: SE3) -> float:
+def away(a: SE3, b: SE3) -> float:
+    """From one to the other, seen from above, m."""
     return math.hypot(a.t[0] - b.t[0], a.t[1] - b.t[1])

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from navcore.geometry.angles import wrap
 from navcore.geometry.se2 import SE2
 from navcore.geometry.se3 import SE3
-from navcore.localization.lidar3d.contest import Contest, ContestParams, Hypothesis
+from navcore.localization.lidar3d.contest import Contest, ContestParams, Hypothesis, away
 from navcore.localization.ndt.birds_eye import BirdsEye
 from navcore.localization.ndt.ndt_matcher import NdtMatcher, NdtMatcherParams
 from navcore.localization.ndt.place_search import PlaceSearch, PlaceSearchParams, Region
@@ -146,12 +146,12 @@ class MapStart:
     def _is_due(self, stamp_ns: int, T_odom_base: SE3) -> bool:
         """The first looks at once; then only what may be new."""
         waited = (stamp_ns - self._looked_ns) * NS >= self._p.again_s
-        return self._looks < self._p.looks or waited or _way(self._looked, T_odom_base) >= self._p.again_step
+        return self._looks < self._p.looks or waited or away(self._looked, T_odom_base) >= self._p.again_step
 
     def _is_stale(self, contest: Contest, stamp_ns: int, T_odom_base: SE3) -> bool:
         """Too far on for what was searched, or nothing of it is left."""
         over = (stamp_ns - self._began_ns) * NS >= self._p.nowhere_s and not contest.places
-        return over or _way(self._began, T_odom_base) >= self._p.whole_again
+        return over or away(self._began, T_odom_base) >= self._p.whole_again
 
     def _judged(self, contest: Contest, region: Region | None) -> StartLook:
         inside = [place for place in contest.places if region is None or region.holds(_at(place))]
@@ -196,7 +196,3 @@ def _tie(eye: BirdsEye, at: SE2, T_odom_base: SE3) -> SE3:
 
 def _at(place: Hypothesis) -> SE2:
     return place.found.T_target_source.se2()
-
-
-def _way(a: SE3, b: SE3) -> float:
-    return math.hypot(a.t[0] - b.t[0], a.t[1] - b.t[1])
