@@ -16,10 +16,10 @@ from numpy.typing import NDArray
 from navcore.bench.lidar3d.ndt_scans import NdtScans, PlacedScan
 from navcore.geometry.se3 import SE3
 from navcore.geometry.voxel_means import voxel_means
-from navcore.localization.lidar3d.map_localizer import MapLocalizerParams
 from navcore.localization.ndt.ndt_matcher import NdtMatcher, NdtMatcherParams
 from navcore.localization.ndt.published_ndt import PublishedNdt
 from navcore.localization.ndt.registration import Registration
+from navcore.localization.ndt.scan_follower import ScanFollower
 from navcore.localization.ndt.start_search import WIDE_SEARCH
 from navcore.maps.ndt.ndt_map import NdtMap
 
@@ -78,7 +78,7 @@ def rivals(scans: NdtScans) -> dict[str, Rival]:
 def following_rivals(ndt_map: NdtMap, cloud: Floats) -> dict[str, Rival]:
     """The same where odometry leads from scan to scan, ours as the robot has it then; `cloud` (M, 3) for others."""
     return {
-        OURS: partial(_ours, NdtMatcher(ndt_map, MapLocalizerParams().tracking)),
+        OURS: partial(_ours, ScanFollower(ndt_map)),
         PUBLISHED: partial(_ours, PublishedNdt(ndt_map)),
         **_small_gicp(cloud),
     }
@@ -89,7 +89,7 @@ def pose_of(made: Registration | SE3) -> SE3:
     return made if isinstance(made, SE3) else made.T_target_source
 
 
-def _ours(matcher: NdtMatcher | PublishedNdt, case: Case) -> Registration:
+def _ours(matcher: NdtMatcher | PublishedNdt | ScanFollower, case: Case) -> Registration:
     return matcher.match(case.points, case.guess)
 
 

@@ -22,13 +22,13 @@ from navcore.localization.lidar3d.standing_uprights import StandingUprights
 from navcore.localization.ndt.ndt_matcher import NdtMatcher, NdtMatcherParams
 from navcore.localization.ndt.place_search import Region
 from navcore.localization.ndt.registration import Registration
-from navcore.localization.ndt.start_search import WIDE_SEARCH, StartSearchParams
+from navcore.localization.ndt.scan_follower import ScanFollower, ScanFollowerParams
+from navcore.localization.ndt.start_search import WIDE_SEARCH
 from navcore.maps.ndt.ground_height import ground_height
 from navcore.maps.ndt.ndt_map import NdtMap
 from navcore.messages import FixQuality, MapMatch, MatchState, Odometry, PoseEstimate
 
 Floats = NDArray[np.float64]
-_NOWHERE = StartSearchParams(reach=0.0, turn=0.0)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -37,7 +37,7 @@ class MapLocalizerParams:
 
     Attributes:
         voxel: clouds are thinned to one point in such a cube, m, 0.1 to 1.
-        tracking: of the matcher from one cloud to the next. starting: of the same about a guess.
+        tracking: of matches from one cloud to the next. starting: of the same about a guess.
         sure_std: at a place known to this, m, a start looks nowhere else. start: of the search where it is not.
         vague_std: a place known worse than this, m, is no place to search about.
         stray: a start may end no further from its guess than so many 1-sigma of it, and `apart` or `stray_turn` more,
@@ -53,7 +53,7 @@ class MapLocalizerParams:
     """
 
     voxel: float = 0.4
-    tracking: NdtMatcherParams = field(default_factory=lambda: NdtMatcherParams(search=_NOWHERE))
+    tracking: ScanFollowerParams = field(default_factory=ScanFollowerParams)
     starting: NdtMatcherParams = field(
         default_factory=lambda: NdtMatcherParams(
             search=replace(WIDE_SEARCH, reach=1.6, turn=math.radians(32.0)), guess_std=1.5, guess_turn_std=0.5
@@ -97,9 +97,9 @@ class MapLocalizer:
 
     def __init__(self, ndt_map: NdtMap, params: MapLocalizerParams = MapLocalizerParams()) -> None:
         self._map, self._p = ndt_map, params
-        self._tracker = NdtMatcher(ndt_map, params.tracking)
+        self._tracker = ScanFollower(ndt_map, params.tracking)
         self._starter = NdtMatcher(ndt_map, params.starting)
-        self._start_search = MapStart(ndt_map, self._tracker, params.start)
+        self._start_search = MapStart(ndt_map, NdtMatcher(ndt_map, params.tracking.matcher), params.start)
         self._told_ns = self._overruled = 0
         self._last: _Placed | None = None
         self._match = MapMatch(stamp_ns=0, state=MatchState.STARTING, reason="no cloud yet")
