@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
 
@@ -25,6 +25,8 @@ class DriveGraphParams:
     Attributes:
         step_std, step_turn_std: no step is surer, m and rad, above 0: the local map is crooked by as much.
         slip, slip_turn: 1-sigma of a step of which turns were lost, by odometry alone: share of the way, rad per m.
+        lasting_s: a fix's error is the same for so long, s, twice its time constant (`GnssNoiseParams`): fixes that
+            follow each other sooner share one's weight.
         level_std: of gravity as the IMU has it, rad, above 0: mount, bias and the robot's own jerks.
         graph: its kernels.
     """
@@ -33,6 +35,7 @@ class DriveGraphParams:
     step_turn_std: float = math.radians(0.03)
     slip: float = 0.05
     slip_turn: float = math.radians(1.0)
+    lasting_s: float = 60.0
     level_std: float = math.radians(1.0)
     graph: PoseGraphParams = field(default_factory=PoseGraphParams)
 
@@ -47,12 +50,25 @@ def drive_graph(
         graph.add(_step(i, before, after, params))
     for i, k in enumerate(keyframes):
         graph.add(LevelTerm(i=i, up=k.up, std=params.level_std))
-        if georeferenced and k.fix is not None:
-            information = np.diag(k.fix.std**-2.0)
-            graph.add(PositionTerm(i=i, antenna=k.fix.antenna, place=k.fix.place, information=information))
+    for position in fix_terms(keyframes, params) if georeferenced else ():
+        graph.add(position)
     for loop in loops:
         graph.add(loop)
     return graph
+
+
+def fix_terms(keyframes: Sequence[Keyframe], p: DriveGraphParams) -> Iterator[PositionTerm]:
+    """The fixes of keyframes, those that follow each other soon with a small share of the weight each."""
+    before_ns: int | None = None
+    for i, k in enumerate(keyframes):
+        if k.fix is None:
+            continue
+        since_s = p.lasting_s if before_ns is None else (k.stamp_ns - before_ns) * 1e-9
+        before_ns = k.stamp_ns
+        yield PositionTerm(
+            i=i, antenna=k.fix.antenna, place=k.fix.place, information=np.diag(k.fix.std**-2.0),
+            share=since_s / (since_s + p.lasting_s),
+        )  # fmt: skip
 
 
 def _step(i: int, before: Keyframe, after: Keyframe, p: DriveGraphParams) -> RelativeTerm:

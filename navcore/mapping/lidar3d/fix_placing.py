@@ -26,12 +26,10 @@ class FixPlacerParams:
 
     Attributes:
         noise: of fixes by quality.
-        lasting: a slow error is the same in neighbouring keyframes, so it weighs this much wider, at least 1.
         up_factor: heights are this much worse than places, at least 1 (geometry of the satellites).
     """
 
     noise: GnssNoiseParams = field(default_factory=GnssNoiseParams)
-    lasting: float = 3.0
     up_factor: float = 2.0
 
 
@@ -70,7 +68,7 @@ class FixPlacer:
 
     def _std(self, fix: GnssFix) -> Floats:
         p = self._params
-        slow = p.lasting * self._noise.slow(fix)
+        slow = self._noise.slow(fix)
         east, north = (math.hypot(variance**0.5, slow) for variance in self._noise.white_variances(fix))
         told_up = (fix.std_up_m or 0.0) * p.noise.told_factor
         return np.array((east, north, math.hypot(max(told_up, p.up_factor * max(east, north)), slow)))

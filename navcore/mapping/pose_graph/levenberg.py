@@ -41,10 +41,10 @@ class Kind:
         c = self.bend * softer
         return np.ones(len(chi2)) if np.isinf(c) else (c / (c + chi2)) ** 2
 
-    def cost(self, chi2: Floats, softer: float) -> float:
+    def cost(self, linear: Linear, softer: float) -> float:
         """Sum of rho."""
-        c = self.bend * softer
-        return float(chi2.sum() if np.isinf(c) else (c * chi2 / (c + chi2)).sum())
+        c, chi2 = self.bend * softer, linear.chi2()
+        return float((linear.share * (chi2 if np.isinf(c) else c * chi2 / (c + chi2))).sum())
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -103,7 +103,7 @@ def _descended(
 
 def _at(poses: Poses, kinds: Sequence[Kind], softer: float) -> tuple[list[Linear], float]:
     linears = [kind.terms.at(poses) for kind in kinds]
-    return linears, sum(kind.cost(m.chi2(), softer) for kind, m in zip(kinds, linears, strict=True))
+    return linears, sum(kind.cost(m, softer) for kind, m in zip(kinds, linears, strict=True))
 
 
 def _normal_equations(
@@ -113,7 +113,7 @@ def _normal_equations(
     g = np.zeros(6 * nodes)
     rows, columns, values = [], [], []
     for kind, m in zip(kinds, linears, strict=True):
-        WJ = kind.weights(m.chi2(), softer)[:, None, None] * (m.W @ m.J)
+        WJ = (m.share * kind.weights(m.chi2(), softer))[:, None, None] * (m.W @ m.J)
         at = (6 * m.nodes[:, :, None] + np.arange(6)).reshape(len(m.nodes), -1)
         np.add.at(g, at, np.einsum("mri,mr->mi", WJ, m.e))
         blocks = m.J.transpose(0, 2, 1) @ WJ

@@ -22,12 +22,14 @@ class Linear:
 
     Attributes:
         nodes: (M, k). e: (M, r) residuals. J: (M, r, 6 k) by the nodes' steps. W: (M, r, r) information.
+        share: (M,) of its weight that a term has in the sum, whatever a kernel leaves of it.
     """
 
     nodes: Ints
     e: Floats
     J: Floats
     W: Floats
+    share: Floats | float = 1.0
 
     def chi2(self) -> Floats:
         """e^T W e (M,)."""
@@ -69,6 +71,7 @@ class PositionTerms:
         self._antenna = np.array([m.antenna for m in terms]).reshape(-1, 3)
         self._place = np.array([m.place for m in terms]).reshape(-1, 3)
         self._W = np.array([m.information for m in terms]).reshape(-1, 3, 3)
+        self._share = np.array([m.share for m in terms])
 
     def __len__(self) -> int:
         return len(self._nodes)
@@ -79,7 +82,7 @@ class PositionTerms:
         arm = _times(poses.R[i], self._antenna)
         J = np.zeros((len(i), 3, 6))
         J[:, :, :3], J[:, :, 3:] = np.eye(3), -hat(arm)
-        return Linear(self._nodes, poses.t[i] + arm - self._place, J, self._W)
+        return Linear(self._nodes, poses.t[i] + arm - self._place, J, self._W, self._share)
 
 
 class LevelTerms:

@@ -35,12 +35,14 @@ class PositionTerm:
 
     Attributes:
         antenna: (3,) in node `i`, m. place: (3,) measured in `map`, m. information: (3, 3), 1/m^2.
+        share: of an independent measurement, above 0, at most 1: the others of its neighbourhood have the same error.
     """
 
     i: int
     antenna: Floats
     place: Floats
     information: Floats
+    share: float = 1.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -155,6 +156,20 @@ def test_a_receiver_that_lies_by_two_metres_for_a_while_is_outvoted(seed: int) -
     assert worst(found, truth) < 0.06  # m
     assert found.position_weights[-len(lies) :].max() < 0.01
     assert found.position_weights[: -len(lies)].min() > 0.3
+
+
+def test_fixes_that_share_one_slow_error_do_not_stretch_a_drive() -> None:
+    truth = u_shaped(5)
+    steps = measured(truth, 5, 0.1)
+    drifting = [position(T, i, np.array((0.3 * i / len(truth), 0.0, 0.0)), std=0.3) for i, T in enumerate(truth)]
+    shared = [replace(fix, share=1.0 / 60.0) for fix in drifting]
+
+    def stretch(fixes: list[PositionTerm]) -> float:
+        found = graph_of(chained(truth[0], steps), *steps, *fixes).solve().poses.t
+        return abs(float(np.linalg.norm(found[39] - found[0]) - np.linalg.norm(truth[39].t - truth[0].t)))
+
+    assert stretch(drifting) > 0.05  # m: each is taken for news
+    assert stretch(shared) < 0.02  # m
 
 
 def test_without_positions_the_first_pose_stays_where_it_is() -> None:
