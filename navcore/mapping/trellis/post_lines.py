@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from navcore.maps.plant_lines import along, robust_line
+from navcore.mapping.trellis.line_gaps import breaks
+from navcore.maps.plant_lines import robust_line
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -21,15 +23,18 @@ class PostLineParams:
     Attributes:
         nearest, furthest: distances between neighbouring posts of a line, m.
         plants: vines that were trained as high as their posts stand this near to each other, m, at most `nearest`.
+        closer: vines are taken for posts where so many times as many uprights then stand in lines side by side.
         parallel_deg: lines of a family differ by less in direction, deg.
         off: a post stands no further from its line than this, m.
         fewest: posts that make a line.
-        break_at: a gap of so many times the line's usual spacing ends it, and another block begins.
+        break_at: a gap of so many times the line's usual spacing ends it, and another block begins, where the lines
+            beside it have one too.
     """
 
     nearest: float = 2.0
     furthest: float = 15.0
     plants: float = 1.0
+    closer: float = 1.5
     parallel_deg: float = 4.0
     off: float = 0.4
     fewest: int = 3
@@ -54,12 +59,14 @@ def post_lines(places: Floats, params: PostLineParams = PostLineParams()) -> tup
 
 
 def upright_lines(places: Floats, params: PostLineParams = PostLineParams()) -> tuple[tuple[Ints, ...], ...]:
-    """Families of lines as `post_lines` finds them; where none has two lines, vines may stand in them like posts."""
-    families = post_lines(places, params)
-    if any(len(family) > 1 for family in families):
-        return families
-    closer = post_lines(places, replace(params, nearest=params.plants))
-    return closer if any(len(family) > 1 for family in closer) else families
+    """Families of lines as `post_lines` finds them; where most are left over, vines may stand in them like posts."""
+    families, closer = post_lines(places, params), post_lines(places, replace(params, nearest=params.plants))
+    return closer if _side_by_side(closer) > params.closer * _side_by_side(families) else families
+
+
+def _side_by_side(families: Sequence[Sequence[Ints]]) -> int:
+    """Posts in lines that have another beside them."""
+    return sum(len(line) for family in families if len(family) > 1 for line in family)
 
 
 def _family(places: Floats, left: Ints, params: PostLineParams) -> list[Ints]:
@@ -71,16 +78,18 @@ def _family(places: Floats, left: Ints, params: PostLineParams) -> list[Ints]:
     across = places[left] @ normal
     order = np.argsort(across, kind="stable")
     cuts = np.nonzero(np.diff(across[order]) > params.off)[0] + 1
-    groups = [left[part] for part in np.split(order, cuts)]
-    found = [line for group in groups for line in _straight(places, group, unit, params, params.fewest)]
-    known = np.array([(places[line] @ normal).mean() for line in found])
-    lines = [
-        (float((places[line] @ normal).mean()), line)
-        for group in groups
-        for line in _straight(places, group, unit, params, 2)
-        if len(line) >= params.fewest or _at_row_spacing(float((places[line] @ normal).mean()), known, params)
+    straight = [_straight(places, left[part], unit, params) for part in np.split(order, cuts)]
+    laid = [line for line in straight if len(line) >= 2]
+    means = np.array([(places[line] @ normal).mean() for line in laid])
+    spots = [places[line] @ unit for line in laid]
+    parts = [part for k in range(len(laid)) for part in _parts(k, laid, spots, means, params)]
+    known = np.array([(places[part] @ normal).mean() for part in parts if len(part) >= params.fewest])
+    lines = [(float((places[part] @ normal).mean()), part) for part in parts]
+    return [
+        part
+        for across, part in sorted(lines, key=lambda item: item[0])
+        if len(part) >= params.fewest or _at_row_spacing(across, known, params)
     ]
-    return [line for _, line in sorted(lines, key=lambda item: item[0])]
 
 
 def _at_row_spacing(across: float, known: Floats, params: PostLineParams) -> bool:
@@ -109,17 +118,18 @@ def _heading(points: Floats, params: PostLineParams) -> float | None:
     return float((best + np.average(off[near], weights=far[i, j][near] ** 2)) % math.pi)
 
 
-def _straight(
-    places: Floats, group: Ints, unit: tuple[float, float], params: PostLineParams, fewest: int
-) -> list[Ints]:
-    """The line through most of a group, cut where posts are far apart; nothing for too few."""
-    if len(group) < fewest:
-        return []
+def _straight(places: Floats, group: Ints, unit: tuple[float, float], params: PostLineParams) -> Ints:
+    """Those of a group on the line through most of them, in order; none where they stand too close for posts."""
     ordered = group[np.argsort(places[group] @ unit, kind="stable")]
-    line = robust_line(places[ordered])
-    kept = ordered[np.abs(line.distances(places[ordered])) <= params.off]
-    gaps = np.diff(np.abs(along(line, places[kept]) - along(line, places[kept])[0]))
-    if not len(gaps) or np.median(gaps) < params.nearest:
-        return []
-    cuts = np.nonzero(gaps > params.break_at * float(np.median(gaps)))[0] + 1
-    return [part for part in np.split(kept, cuts) if len(part) >= fewest]
+    if len(ordered) < 2:
+        return ordered[:0]
+    kept = ordered[np.abs(robust_line(places[ordered]).distances(places[ordered])) <= params.off]
+    close = len(kept) < 2 or float(np.median(np.diff(places[kept] @ unit))) < params.nearest
+    return kept[:0] if close else kept
+
+
+def _parts(
+    k: int, laid: Sequence[Ints], spots: Sequence[Floats], across: Floats, params: PostLineParams
+) -> list[Ints]:
+    """Line `k`, cut where it crosses a headland."""
+    return [part for part in np.split(laid[k], breaks(k, spots, across, params.break_at)) if len(part) >= 2]

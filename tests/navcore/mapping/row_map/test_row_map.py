@@ -68,6 +68,14 @@ def test_vines_as_tall_as_their_posts_still_make_rows_and_the_operator_is_told()
     assert not any("taken for posts" in note for note in found().notes)
 
 
+def test_the_road_between_two_blocks_is_no_row() -> None:
+    vineyard = StandingBlock(lines=8, posts=13, width=3.0, spacing=1.5)
+    road = tuple(range(3 * vineyard.posts, 5 * vineyard.posts))
+    seen = map_rows([vineyard.seen(rays=False, missing=road)])[0]
+    assert len(seen.rows) == 4
+    assert max(row.width for row in seen.rows) < 3.5  # m, the road is 9 m wide
+
+
 def test_the_open_ground_before_the_rows_becomes_headlands() -> None:
     headlands = [zone for zone in found().zones if zone.kind is ZoneKind.HEADLAND]
     assert len(headlands) == 2
