@@ -7,7 +7,8 @@ import math
 import numpy as np
 from numba import njit
 
-from navcore.localization.ndt.match_kernels import Floats, normal_equations, turned
+from navcore.localization.ndt.match_kernels import Floats, turned
+from navcore.localization.ndt.normal_kernels import normal_equations, place, scratch
 from navcore.maps.ndt.cell_grid import Cells
 
 
@@ -25,8 +26,10 @@ def descend(
     g = np.empty(6)
     weights, met, last, count = 0.0, 0, math.inf, 0
     R, t = np.ascontiguousarray(pose[:, :3]), pose[:, 3].copy()
+    own, S = scratch((len(points) + stride - 1) // stride)
     while count < most and last >= 1.0:
-        weights, met = normal_equations(points, stride, R, t, cells, steepness, H, g)
+        met = place(points, stride, R, t, cells, own, S)
+        weights = normal_equations(S, steepness, H, g)
         step = np.asarray(-np.linalg.solve(H + np.diag(hold), g + hold * _off(guess, R, t)), dtype=np.float64)
         R, t = turned(R, step), t + step[:3]
         pose[:, :3], pose[:, 3] = R, t

@@ -21,7 +21,7 @@ class StartSearchParams:
         reach: furthest place, m, at least 0. turn: furthest heading, rad, at least 0.
         step: between two places, m, above 0. turn_step: between two headings, rad, above 0.
         grid: of the map that is looked at, 0 the coarsest. points: of the scan, about, at least 1.
-        steepness: of the score, see `normal_equations`.
+        steepness: of the score, see `weight_sum`.
         doubt: share of its score that the furthest place loses, and the furthest heading, 0 to 1: where all places
             look alike, as along a smooth corridor, the guess stays.
         candidates: so many starts are followed at most, at least 1; those that score `close` times the best, 0 to 1.
