@@ -12,6 +12,7 @@ import math
 import tempfile
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from itertools import islice
 from pathlib import Path
 
 import numpy as np
@@ -53,7 +54,8 @@ class LocalizationBenchParams:
         blocks: each mapped once. size: of a block. rows: that are driven. drives: in each season. wrong: places put
             wrong in all. restarts: robots switched on in each season and block.
         bad, bad_drives, bad_turns: cases of bad input, drives of each, and turns of the LiDAR in each.
-        followed: seasons in which the rivals follow a drive on the first block's map, and its rows.
+        followed, followed_rows, followed_scans: seasons in which the rivals follow a drive on the first block's map,
+            its rows, and its scans at most.
     """
 
     blocks: int = 2
@@ -63,6 +65,7 @@ class LocalizationBenchParams:
     wrong: int = 200
     followed: tuple[Season, ...] = tuple(SEASONS)
     followed_rows: tuple[int, ...] = (0, 1)
+    followed_scans: int | None = None
     bad_drives: int = 3
     bad_turns: int = 300
     bad: tuple[BadInput, ...] = CASES
@@ -71,7 +74,7 @@ class LocalizationBenchParams:
 
 QUICK = LocalizationBenchParams(
     blocks=1, size=BlockSize(alleys=2, length=24.0), wrong=50, followed=(Season.DORMANT,),
-    followed_rows=(0,), bad_drives=1, bad_turns=200,
+    followed_rows=(0,), followed_scans=150, bad_drives=1, bad_turns=120,
     bad=tuple(case for case in CASES if not case.whole), restarts=2,
 )  # fmt: skip
 
@@ -114,7 +117,8 @@ def rival_figures(block: PearBlock, params: LocalizationBenchParams, made: MadeM
     for season in params.followed:
         tell(f"block {block.seed}, {SEASONS[season]}: the rivals follow")
         case = BlockDriveParams(seed=_RIVAL_SEED, season=season, rows=params.followed_rows)
-        followers = followed(led(block, case), following_rivals(made.ndt, made.cloud.points))
+        turns = islice(led(block, case), params.followed_scans)
+        followers = followed(turns, following_rivals(made.ndt, made.cloud.points))
         figures += following_figures(SEASONS[season], followers, _RIVAL_SEED)
     return figures
 
