@@ -7,9 +7,8 @@ from typing import Annotated
 
 import typer
 
+from navcore.cli.figure_drawing import draw, drawable
 from navcore.cli.figure_lines import lines, report
-
-BAD_INPUT = 2
 
 
 def register(bench_app: typer.Typer) -> None:
@@ -24,7 +23,10 @@ def bench_tracking(
         Path | None, typer.Option(metavar="FOLDER", help="Keep the drives here, and go on with what is here.")
     ] = None,
     plot: Annotated[
-        Path | None, typer.Option(metavar="FILE.svg", help="Draw the drives: how far off the path along the way.")
+        Path | None,
+        typer.Option(
+            metavar="FILE.svg", callback=drawable, help="Draw the drives: how far off the path along the way."
+        ),
     ] = None,
     processes: Annotated[int, typer.Option(min=1, max=64, help="Drives side by side.")] = 2,
 ) -> None:
@@ -42,14 +44,6 @@ def bench_tracking(
     cases = tracking_cases(QUICK if quick else TrackingCaseParams())
     drives = drive_all(cases, folder, processes, lambda line: typer.echo(line, err=True))
     if plot is not None:
-        _draw(plot, tracking_plot(drives, Localization.RTK))
+        draw(plot, tracking_plot(drives, Localization.RTK))
     figures, made = tracking_figures(drives), (commit(), machine())
     typer.echo(report(figures, *made) if as_json else lines(figures, *made))
-
-
-def _draw(path: Path, drawing: str) -> None:
-    try:
-        path.write_text(drawing, encoding="utf-8")
-    except OSError as error:
-        typer.echo(f"{path} cannot be written: {error.strerror}.", err=True)
-        raise typer.Exit(BAD_INPUT) from None

@@ -101,6 +101,22 @@ def heard(
         yield Heard(placed=placed, events=frozenset(event.name for event in on))
 
 
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class BadInputDrive:
+    """One drive of a case; see `heard`."""
+
+    block: PearBlock
+    case: BadInput
+    ndt_map: NdtMap
+    turns: int
+    seed: int
+
+
+def drive_badly(d: BadInputDrive) -> tuple[str, list[Heard]]:
+    """The case's name, and its turns."""
+    return d.case.name, list(heard(d.block, d.case, d.ndt_map, d.turns, d.seed, BlockDriveParams()))
+
+
 def map_facts(senses: Senses, now_ns: int) -> EventFacts:
     """What the table of events would look at if all but the map were well and the robot drove by it."""
     on_map = senses.on_map

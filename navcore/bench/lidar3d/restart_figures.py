@@ -80,6 +80,17 @@ def restart_figures(season: str, found: Sequence[Restarts]) -> list[Figure]:
     ]  # fmt: skip
 
 
+def restart_words(found: Sequence[Restarts]) -> str:
+    """How it went, in a line."""
+    told, nothing = ([getattr(f, name) for f in found] for name in ("roughly", "nothing"))
+    parts = [f"told {how} {_tally(results)}" for how, results in (("roughly", told), ("nothing", nothing))]
+    return f"restarted {len(found)} times; {'; '.join(parts)}"
+
+
+def _tally(results: Sequence[Restarted]) -> str:
+    return f"{sum(r.right for r in results)} right, {sum(r.wrong for r in results)} wrong"
+
+
 def _words(robot: Robot) -> str:
     return f"({robot.at.x:.1f}, {robot.at.y:.1f}), {'creeping' if robot.creep else 'standing'}"
 

@@ -26,9 +26,9 @@ def descend(
     g = np.empty(6)
     weights, met, last, count = 0.0, 0, math.inf, 0
     R, t = np.ascontiguousarray(pose[:, :3]), pose[:, 3].copy()
-    own, S = scratch((len(points) + stride - 1) // stride)
+    own, slots, S = scratch((len(points) + stride - 1) // stride)
     while count < most and last >= 1.0:
-        met = place(points, stride, R, t, cells, own, S)
+        met = place(points, stride, R, t, cells, own, slots, S)
         weights = normal_equations(S, steepness, H, g)
         step = np.asarray(-np.linalg.solve(H + np.diag(hold), g + hold * _off(guess, R, t)), dtype=np.float64)
         R, t = turned(R, step), t + step[:3]

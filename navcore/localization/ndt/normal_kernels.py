@@ -13,7 +13,7 @@ import math
 import numpy as np
 from numba import njit
 
-from navcore.geometry.voxel_table import FREE, HALF, Keys, find, key_of
+from navcore.geometry.voxel_table import FREE, HALF, Keys, Slots, find, key_of
 from navcore.localization.ndt.match_kernels import Floats
 from navcore.maps.ndt.cell_grid import Cells
 
@@ -21,17 +21,17 @@ from navcore.maps.ndt.cell_grid import Cells
 # there is a Gaussian (1 or 0).
 R_X, R_Y, R_Z, Q_X, Q_Y, Q_Z, MEAN, INFORMATION, LIVE = 0, 1, 2, 3, 4, 5, 6, 9, 15
 SCRATCH = 16
-_NOWHERE = FREE - 1
+_NOWHERE, _AS_BEFORE = FREE - 1, FREE - 1
 
 
 @njit(cache=True, nogil=True)
-def scratch(count: int) -> tuple[Keys, Floats]:
-    """The cell of each of `count` points, none so far, and (16, count) numbers."""
-    return np.full(count, _NOWHERE, dtype=np.int64), np.zeros((SCRATCH, count))
+def scratch(count: int) -> tuple[Keys, Slots, Floats]:
+    """The cell of each of `count` points, none so far, its slot, and (16, count) numbers."""
+    return np.full(count, _NOWHERE, dtype=np.int64), np.full(count, FREE, dtype=np.int32), np.zeros((SCRATCH, count))
 
 
 @njit(cache=True, fastmath=True, nogil=True, error_model="numpy")
-def place(points: Floats, stride: int, R: Floats, t: Floats, cells: Cells, own: Keys, S: Floats) -> int:
+def place(points: Floats, stride: int, R: Floats, t: Floats, cells: Cells, own: Keys, slots: Slots, S: Floats) -> int:
     """Every `stride`-th point at the pose, in its Gaussian; how many have one."""
     size = cells[3]
     R00, R01, R02, R10, R11, R12 = R[0, 0], R[0, 1], R[0, 2], R[1, 0], R[1, 1], R[1, 2]
@@ -40,31 +40,42 @@ def place(points: Floats, stride: int, R: Floats, t: Floats, cells: Cells, own: 
         px, py, pz = points[n * stride, 0], points[n * stride, 1], points[n * stride, 2]
         rx, ry, rz = R00 * px + R01 * py + R02 * pz, R10 * px + R11 * py + R12 * pz, R20 * px + R21 * py + R22 * pz
         x, y, z = rx + t[0], ry + t[1], rz + t[2]
+        S[R_X, n], S[R_Y, n], S[R_Z, n], S[Q_X, n], S[Q_Y, n], S[Q_Z, n] = rx, ry, rz, x, y, z
         key = _NOWHERE
         if abs(x) <= reach and abs(y) <= reach and abs(z) <= reach:
             key = key_of(math.floor(x * inverse), math.floor(y * inverse), math.floor(z * inverse))
+        slots[n] = _AS_BEFORE
         if key != own[n]:
             own[n] = key
-            _enter(n, key, math.floor(x * inverse), math.floor(y * inverse), math.floor(z * inverse), cells, S)
-        S[R_X, n], S[R_Y, n], S[R_Z, n] = rx, ry, rz
-        S[Q_X, n], S[Q_Y, n], S[Q_Z, n] = x - S[MEAN, n], y - S[MEAN + 1, n], z - S[MEAN + 2, n]
+            slots[n] = FREE if key == _NOWHERE else find(cells[0], cells[1], key)
+    _enter(cells, slots, S)
+    for n in range(len(own)):
+        S[Q_X, n], S[Q_Y, n], S[Q_Z, n] = (
+            S[Q_X, n] - S[MEAN, n],
+            S[Q_Y, n] - S[MEAN + 1, n],
+            S[Q_Z, n] - S[MEAN + 2, n],
+        )
         met += S[LIVE, n] > 0.0
     return met
 
 
-@njit(cache=True, nogil=True)
-def _enter(n: int, key: int, i: int, j: int, k: int, cells: Cells, S: Floats) -> None:
-    """The Gaussian of the cell that point `n` came into, if it has one."""
-    keys, slots, gaussians, size = cells
-    slot = FREE if key == _NOWHERE else find(keys, slots, key)
-    if slot == FREE or gaussians[slot, 9] == 0.0:
-        S[INFORMATION : LIVE + 1, n] = 0.0
-        return
-    c = gaussians[slot]
-    S[MEAN, n], S[MEAN + 1, n], S[MEAN + 2, n] = i * size + c[0], j * size + c[1], k * size + c[2]
-    for a in range(6):
-        S[INFORMATION + a, n] = c[3 + a]
-    S[LIVE, n] = 1.0
+@njit(cache=True, nogil=True, error_model="numpy")
+def _enter(cells: Cells, slots: Slots, S: Floats) -> None:
+    """The Gaussians of the cells that points came into, where there are any."""
+    _, _, gaussians, size = cells
+    inverse = 1.0 / size
+    for n in range(len(slots)):
+        if slots[n] == _AS_BEFORE:
+            continue
+        if slots[n] == FREE or gaussians[slots[n], 9] == 0.0:
+            S[INFORMATION : LIVE + 1, n] = 0.0
+            continue
+        c = gaussians[slots[n]]
+        for a in range(3):
+            S[MEAN + a, n] = math.floor(S[Q_X + a, n] * inverse) * size + c[a]
+        for a in range(6):
+            S[INFORMATION + a, n] = c[3 + a]
+        S[LIVE, n] = 1.0
 
 
 @njit(cache=True, fastmath=True, nogil=True, error_model="numpy")

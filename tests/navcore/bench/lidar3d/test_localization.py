@@ -3,20 +3,25 @@
 from __future__ import annotations
 
 import math
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
 
-from navcore.bench.lidar3d.localization import at_fixed_points, season_figures, trust_figures
+from navcore.bench.lidar3d.error_boxes import HEIGHT_PX, error_boxes
+from navcore.bench.lidar3d.fixed_point_figures import at_fixed_points, season_figures
 from navcore.bench.lidar3d.localization_drive import Placed
+from navcore.bench.lidar3d.trust_figures import trust_figures
 from navcore.geometry.se2 import SE2
 from navcore.messages import MapMatch, MatchState
 from navcore.sim.block_survey import fixed_points
+from navcore.sim.orchard import Season
 from navcore.sim.pear_block import BlockSize, scoring_block
 
 BLOCK = scoring_block(0, BlockSize(alleys=2, length=12.0))
 ROWS = (0, 1)
 TURN_NS = 100_000_000
+SVG = "{http://www.w3.org/2000/svg}"
 
 
 def drive(left: float, turned: float) -> list[Placed]:
@@ -70,3 +75,19 @@ def test_places_put_wrong_are_noticed_and_right_ones_are_not_doubted() -> None:
 def test_without_a_drive_nothing_is_claimed() -> None:
     noticed, slowest, alarms = trust_figures([], count=40)
     assert noticed.value is slowest.value is alarms.value is None
+
+
+def test_each_way_that_says_something_has_a_box_about_its_errors() -> None:
+    drawing = ElementTree.fromstring(error_boxes({Season.DORMANT: [(BLOCK, drive(0.03, math.radians(0.5)))]}, ROWS))
+    boxes = [r for r in drawing.iter(f"{SVG}rect") if r.get("fill-opacity")]
+    assert len(boxes) == 4  # RTK and both, lateral and heading; the map alone says nothing
+    words = [text.text for text in drawing.iter(f"{SVG}text")]
+    assert words.count("14") == 4
+    assert {"winter", "spring", "full leaf", "RTK alone", "3D map alone"} <= set(words)
+    up = {float(box.get("y", "nan")) for box in boxes}
+    assert max(up) < HEIGHT_PX / 2.0  # left, and to the left: above the middle
+
+
+def test_without_any_drive_the_drawing_is_empty_but_whole() -> None:
+    drawing = ElementTree.fromstring(error_boxes({}, ROWS))
+    assert not [r for r in drawing.iter(f"{SVG}rect") if r.get("fill-opacity")]

@@ -20,17 +20,17 @@ STEEP = 0.6
 
 def equations(*poses: SE3, stride: int = 1) -> tuple[float, int, Floats, Floats]:
     """At the last of the poses, after the others."""
-    own, S = scratch((len(POINTS) + stride - 1) // stride)
+    own, slots, S = scratch((len(POINTS) + stride - 1) // stride)
     for T in poses:
-        met = place(POINTS, stride, T.R, T.t, CELLS, own, S)
+        met = place(POINTS, stride, T.R, T.t, CELLS, own, slots, S)
     H, g = np.zeros((6, 6)), np.zeros(6)
     return normal_equations(S, STEEP, H, g), met, H, g
 
 
 def cost(T: SE3) -> float:
     """Minus the sum of weights over the steepness: its slope is g where no point changes its cell."""
-    own, S = scratch(len(POINTS))
-    place(POINTS, 1, T.R, T.t, CELLS, own, S)
+    own, slots, S = scratch(len(POINTS))
+    place(POINTS, 1, T.R, T.t, CELLS, own, slots, S)
     return -normal_equations(S, STEEP, np.zeros((6, 6)), np.zeros(6)) / STEEP
 
 
