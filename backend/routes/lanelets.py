@@ -3,10 +3,7 @@
 from __future__ import annotations
 
 import logging
-import math
-from functools import partial
 
-import numpy as np
 from fastapi import APIRouter, Request, Response
 from fastapi.concurrency import run_in_threadpool
 
@@ -16,8 +13,7 @@ from backend.schemas import ImportedSite
 from backend.station import Station
 from navcore.errors import RowpilotError
 from navcore.mapping.row_map.u_turns import u_turns
-from navcore.mapping.trellis.ground_model import GroundModel
-from navcore.maps.site_map import Datum, Point
+from navcore.maps.site_map import Datum
 from navcore.maps.vector_map.from_site import vector_map_of
 from navcore.maps.vector_map.lanelet_export import GroundHeight, vector_map_to_osm
 from navcore.maps.vector_map.lanelet_import import import_lanelets
@@ -62,14 +58,7 @@ def _ground(station: Station, site_id: str, datum: Datum) -> GroundHeight:
     except RowpilotError as error:
         log.warning("no heights for site %s: %s", site_id, error)
         ground = None
-    if ground is None:
-        return lambda _: None
-    return partial(_height, ground)
-
-
-def _height(ground: GroundModel, place: Point) -> float | None:
-    (height,) = ground.seen_height(np.array([place])).tolist()
-    return height if math.isfinite(height) else None
+    return (lambda _: None) if ground is None else ground.seen_at
 
 
 def _import(station: Station, data: bytes) -> ImportedSite:

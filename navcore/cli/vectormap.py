@@ -9,6 +9,7 @@ import typer
 
 if TYPE_CHECKING:
     from navcore.mapping.row_map.row_map import RowMap
+    from navcore.mapping.trellis.ground_model import GroundModel
     from navcore.maps.site_map import SiteMap
     from navcore.maps.vector_map.vector_map import VectorMap
 
@@ -37,9 +38,9 @@ def vectormap(
 
     try:
         farm = _site(site, out)
-        found, vector_map = _found(maps, farm, vehicle)
+        found, vector_map, ground = _found(maps, farm, vehicle)
         if out is not None:
-            _write(out, vector_map)
+            _write(out, vector_map, ground)
     except InputError as error:
         typer.echo(str(error), err=True)
         raise typer.Exit(BAD_INPUT) from None
@@ -67,7 +68,7 @@ def _site(path: Path | None, out: Path | None) -> SiteMap | None:
         raise SiteError(f"The site {path.name} is no JSON. Choose a GeoJSON file.") from error
 
 
-def _found(maps: list[Path], farm: SiteMap | None, vehicle: str) -> tuple[RowMap, VectorMap]:
+def _found(maps: list[Path], farm: SiteMap | None, vehicle: str) -> tuple[RowMap, VectorMap, GroundModel]:
     from dataclasses import replace
 
     from navcore.errors import ConfigError
@@ -83,14 +84,14 @@ def _found(maps: list[Path], farm: SiteMap | None, vehicle: str) -> tuple[RowMap
         raise ConfigError(f"There is no vehicle {vehicle}. Choose one of {', '.join(sorted(PROFILES))}.")
     datum = farm.datum if farm else None
     clouds, notes = zip(*(read_seen_cloud(path, datum) for path in maps), strict=True)
-    found, _ = map_rows(clouds, tell=lambda line: typer.echo(line, err=True))
+    found, trellis = map_rows(clouds, tell=lambda line: typer.echo(line, err=True))
     found = replace(found, notes=(*found.notes, *notes))
     nowhere = SiteMap(name="Mapped farm", datum=Datum(lat_deg=0.0, lon_deg=0.0, height_m=0.0))
     site = added(farm or nowhere, found)
-    return found, vector_map_of(site, u_turns(site, PROFILES[vehicle]))
+    return found, vector_map_of(site, u_turns(site, PROFILES[vehicle])), trellis.ground
 
 
-def _write(out: Path, vector_map: VectorMap) -> None:
+def _write(out: Path, vector_map: VectorMap, ground: GroundModel) -> None:
     import json
 
     from navcore.errors import InputError
@@ -98,7 +99,7 @@ def _write(out: Path, vector_map: VectorMap) -> None:
     from navcore.maps.vector_map.vector_geojson import vector_map_to_geojson
 
     if out.suffix.lower() == ".osm":
-        data = vector_map_to_osm(vector_map)
+        data = vector_map_to_osm(vector_map, ground.seen_at)
     elif out.suffix.lower() in (".geojson", ".json"):
         data = json.dumps(vector_map_to_geojson(vector_map), allow_nan=False).encode()
     else:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -83,6 +84,11 @@ class GroundModel:
         seen = np.zeros(len(xy), dtype=np.bool_)
         seen[on] = self.seen[row[on], column[on]]
         return np.where(seen, self.height(xy), np.nan)
+
+    def seen_at(self, place: tuple[float, float]) -> float | None:
+        """Of one place, m; None where the ground was not seen."""
+        (height,) = self.seen_height(np.array([place])).tolist()
+        return height if math.isfinite(height) else None
 
 
 def _quantiles(cell: NDArray[np.int64], z: Floats, cells: int, params: GroundParams) -> Floats:
