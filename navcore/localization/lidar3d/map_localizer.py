@@ -18,6 +18,7 @@ from navcore.geometry.se2 import SE2
 from navcore.geometry.se3 import SE3
 from navcore.geometry.voxel_means import voxel_means
 from navcore.localization.lidar3d.map_start import MapStart, MapStartParams, StartLook
+from navcore.localization.lidar3d.placed_base import PlacedBase, std_of, told_match
 from navcore.localization.lidar3d.standing_uprights import StandingUprights
 from navcore.localization.ndt.ndt_matcher import NdtMatcher, NdtMatcherParams
 from navcore.localization.ndt.place_search import Region
@@ -76,18 +77,6 @@ class MapLocalizerParams:
     overruled_after: int = 20
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class _Placed:
-    """Where the robot was at a cloud, on the map and by odometry."""
-
-    T_map_base: SE3
-    T_odom_base: SE3
-
-    def expected(self, T_odom_base: SE3) -> SE3:
-        """Where it should be now."""
-        return self.T_map_base @ self.T_odom_base.inverse() @ T_odom_base
-
-
 class MapLocalizer:
     """One cloud in, one `MapMatch` out.
 
@@ -101,7 +90,7 @@ class MapLocalizer:
         self._starter = NdtMatcher(ndt_map, params.starting)
         self._start_search = MapStart(ndt_map, NdtMatcher(ndt_map, params.tracking.matcher), params.start)
         self._told_ns = self._overruled = 0
-        self._last: _Placed | None = None
+        self._last: PlacedBase | None = None
         self._match = MapMatch(stamp_ns=0, state=MatchState.STARTING, reason="no cloud yet")
         self._uprights = StandingUprights(ndt_map)
         self._confirmed = self._failed = 0
@@ -146,7 +135,7 @@ class MapLocalizer:
     def _compare(self, found: MapMatch, motion: Odometry) -> None:
         """A place that was found alone is given up where the robot's own, which RTK gives, is another for long."""
         p, pose = self._p, motion.pose
-        sure = pose is not None and motion.quality is FixQuality.RTK_FIXED and _std(pose) <= p.sure_std
+        sure = pose is not None and motion.quality is FixQuality.RTK_FIXED and std_of(pose) <= p.sure_std
         apart = sure and pose is not None and math.hypot(found.x - pose.x, found.y - pose.y) > p.overruled
         self._overruled = self._overruled + 1 if apart else 0
         if self._overruled >= p.overruled_after:
@@ -162,10 +151,10 @@ class MapLocalizer:
         self._failed = 0
         self._confirmed += 1
         self._usual += 0.05 * (found.score - self._usual)
-        self._last = _Placed(found.T_target_source, T_odom_base)
+        self._last = PlacedBase(found.T_target_source, T_odom_base)
         if self._confirmed < self._p.confirm:
-            return _told(found, MatchState.STARTING, "the place is being confirmed")
-        return _told(found, MatchState.MATCHED)
+            return told_match(found, MatchState.STARTING, "the place is being confirmed")
+        return told_match(found, MatchState.MATCHED)
 
     def _why_not(self, found: Registration, expected: SE3) -> str:
         p = self._p
@@ -184,11 +173,11 @@ class MapLocalizer:
         if self._failed >= self._p.failed:
             self.lose(f"lost: {why}")
             return self._match
-        self._last = _Placed(expected, T_odom_base)
+        self._last = PlacedBase(expected, T_odom_base)
         return replace(self._match, state=MatchState.LOST, reason=why)
 
     def _start(self, points: Floats, stamp_ns: int, T_odom_base: SE3, motion: Odometry) -> MapMatch:
-        if motion.pose is not None and _std(motion.pose) <= self._p.sure_std:
+        if motion.pose is not None and std_of(motion.pose) <= self._p.sure_std:
             return self._start_at(points, T_odom_base, motion, motion.pose)
         told = motion.pose or motion.told
         look = self._start_search.look(points, stamp_ns, T_odom_base, self._region(told))
@@ -209,16 +198,16 @@ class MapLocalizer:
 
     def _placed(self, found: Registration, T_odom_base: SE3) -> MapMatch:
         """A place to be confirmed."""
-        self._last = _Placed(found.T_target_source, T_odom_base)
+        self._last = PlacedBase(found.T_target_source, T_odom_base)
         self._confirmed = self._failed = self._overruled = 0
         self._usual = found.score
         self._start_search.begin_anew()
-        return _told(found, MatchState.STARTING, "the place is being confirmed")
+        return told_match(found, MatchState.STARTING, "the place is being confirmed")
 
     def _strayed(self, off: SE3, pose: PoseEstimate) -> str:
         """Why a start is too far from its guess, else empty."""
         away, turned = math.hypot(off.t[0], off.t[1]), abs(off.rpy()[2])
-        if away > self._p.stray * _std(pose) + self._p.apart:
+        if away > self._p.stray * std_of(pose) + self._p.apart:
             return f"the cloud fits {away:.1f} m from where GNSS puts it"
         if turned > self._p.stray * math.sqrt(max(pose.covariance[8], 0.0)) + self._p.stray_turn:
             return f"the cloud fits turned by {math.degrees(turned):.0f} deg against where the robot points"
@@ -226,10 +215,10 @@ class MapLocalizer:
 
     def _region(self, told: PoseEstimate | None) -> Region | None:
         """Where to search; everywhere if what is told is too vague to help."""
-        if told is None or _std(told) > self._p.vague_std:
+        if told is None or std_of(told) > self._p.vague_std:
             return None
         turn = 3.0 * math.sqrt(max(told.covariance[8], 0.0)) + self._p.margin_turn
-        at, reach = SE2(told.x, told.y, told.yaw), 3.0 * _std(told) + self._p.margin
+        at, reach = SE2(told.x, told.y, told.yaw), 3.0 * std_of(told) + self._p.margin
         return Region(at=at, reach=reach, turn=min(turn, math.pi))
 
     def _sought(self, look: StartLook, told: bool) -> MapMatch:
@@ -243,19 +232,3 @@ class MapLocalizer:
     def _unplaced(self, why: str) -> MapMatch:
         state = MatchState.LOST if self._match.state is MatchState.LOST else MatchState.STARTING
         return replace(self._match, state=state, reason=why, alike=0)
-
-
-def _std(pose: PoseEstimate) -> float:
-    """1-sigma of its worse axis, m."""
-    return math.sqrt(max(pose.covariance[0], pose.covariance[4], 0.0))
-
-
-def _told(found: Registration, state: MatchState, reason: str = "") -> MapMatch:
-    T, seen = found.T_target_source, found.covariance
-    roll, pitch, yaw = T.rpy()
-    at: SE2 = T.se2()
-    rows = (0, 1, 5)  # x, y and the turn about z
-    return MapMatch(
-        stamp_ns=0, state=state, reason=reason, x=at.x, y=at.y, z=float(T.t[2]), roll=roll, pitch=pitch, yaw=yaw,
-        covariance=tuple(float(seen[i, j]) for i in rows for j in rows), score=found.score,
-    )  # fmt: skip
