@@ -82,8 +82,13 @@ export const runsQuery = queryOptions({
   refetchInterval: 5000,
 });
 
+/** Asked again while the robot still drives. */
 export const runQuery = (id: string) =>
-  queryOptions({ queryKey: ["run", id], queryFn: ({ signal }) => get<RunDetail>(`/api/runs/${id}`, signal) });
+  queryOptions({
+    queryKey: ["run", id],
+    queryFn: ({ signal }) => get<RunDetail>(`/api/runs/${id}`, signal),
+    refetchInterval: ({ state }) => (state.data && state.data.ended === null ? 3_000 : false),
+  });
 
 export const trackQuery = (id: string) =>
   queryOptions({

@@ -13,7 +13,9 @@ export function StatusPill() {
   return (
     <span className={css.pill} role="status">
       <span className={css.dot} data-tone={tone} />
-      {words}
+      <span className={css.words} title={words}>
+        {words}
+      </span>
       {simulated && <small>simulator</small>}
     </span>
   );

@@ -1,11 +1,14 @@
-import { Loader } from "@mantine/core";
+import { Button, Loader } from "@mantine/core";
+import { IconRoute } from "@tabler/icons-react";
 import { useQuery } from "@tanstack/react-query";
 import { useMemo } from "react";
+import { Link } from "wouter";
 
 import { sentences } from "../api/client";
 import { robotQuery, runQuery, siteQuery, trackQuery } from "../api/queries";
 import type { RunDetail, RunTrack } from "../api/types";
 import { indexAt } from "../plots/bands";
+import { EmptyState } from "../ui/EmptyState";
 import { Reasons } from "../ui/Reasons";
 import { ReplayBar } from "./ReplayBar";
 import { ReplayCamera } from "./ReplayCamera";
@@ -19,14 +22,27 @@ import { usePlayback } from "./usePlayback";
 /** One run, to be looked at again. */
 export function RunPage({ runId }: { runId: string }) {
   const run = useQuery(runQuery(runId));
-  const track = useQuery(trackQuery(runId));
+  const track = useQuery({ ...trackQuery(runId), enabled: Boolean(run.data?.ended) });
   const error = run.error ?? track.error;
   if (!run.data) return error ? <Reasons reasons={sentences(error)} /> : <Loader m="xl" />;
   return (
     <div className={css.detail}>
       <RunHeader run={run.data} />
-      {track.data && track.data.t_s.length > 0 ? <Replay run={run.data} track={track.data} /> : <NoTrack error={track.error} loading={track.isPending} />}
+      {run.data.ended === null ? <StillGoing /> : track.data && track.data.t_s.length > 0 ? <Replay run={run.data} track={track.data} /> : <NoTrack error={track.error} loading={track.isPending} />}
     </div>
+  );
+}
+
+function StillGoing() {
+  const toDrive = (
+    <Button component={Link} href="/drive" size="lg">
+      Watch it on Drive
+    </Button>
+  );
+  return (
+    <EmptyState icon={IconRoute} title="The robot is still on its way" action={toDrive}>
+      The run can be replayed here as soon as it has ended.
+    </EmptyState>
   );
 }
 
