@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from datetime import datetime
 
 from backend.schemas import RunDocument, RunEventDocument, RunOutcome
 from navcore.messages import ModeSwitch, NavStatus, RunState
@@ -22,6 +23,7 @@ class RunFigures:
         distance_m: integral of |v| over the statuses.
         abs_error_m: integral of |lateral error| over the driven distance, m^2.
         stop_reason: why it was stopped, kept after the stop is acknowledged; empty once it drives on.
+        ended: when that was first written; None while it goes on.
     """
 
     run_id: str
@@ -36,6 +38,7 @@ class RunFigures:
     holds: int = 0
     outcome: RunOutcome = RunOutcome.STARTING
     stop_reason: str = ""
+    ended: datetime | None = None
     fresh_events: list[RunEventDocument] = field(default_factory=list)
 
     def add(self, status: NavStatus) -> None:
@@ -95,9 +98,11 @@ class RunFigures:
         """Whether the run has come to an end, for now: a stopped run may be resumed."""
         return self.outcome in ENDS.values()
 
-    def columns(self) -> dict[str, object]:
-        """For the run's row, without the wall-clock end."""
+    def columns(self, now: datetime) -> dict[str, object]:
+        """For the run's row, written `now`."""
+        self.ended = (self.ended or now) if self.over else None
         return {
+            "ended": self.ended,
             "outcome": self.outcome.value,
             "state": self.last.state.value if self.last else None,
             "reason": self._reason(),
@@ -128,5 +133,6 @@ def resumed(run: RunDocument) -> RunFigures:
         switches=run.mode_switches,
         holds=run.holds,
         outcome=run.outcome,
+        ended=run.ended,
         stop_reason=run.reason if run.outcome is RunOutcome.STOPPED else "",
     )

@@ -127,9 +127,8 @@ class RunWatcher(Worker):
         if figures is None:
             return
         events, figures.fresh_events = figures.fresh_events, []
-        columns = figures.columns() | {"ended": datetime.now(UTC) if figures.over else None}
         try:
-            self._runs.write_figures(figures.run_id, columns, events)
+            self._runs.write_figures(figures.run_id, figures.columns(datetime.now(UTC)), events)
         except SQLAlchemyError:  # a full or locked disk must not end the watching; the next write has all sums
             figures.fresh_events = events + figures.fresh_events
             log.exception("cannot write the figures of run %s", figures.run_id)

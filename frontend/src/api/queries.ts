@@ -90,9 +90,10 @@ export const runQuery = (id: string) =>
     refetchInterval: ({ state }) => (state.data && state.data.ended === null ? 3_000 : false),
   });
 
-export const trackQuery = (id: string) =>
+/** What is recorded so far; of a run that has `ended`, the whole. */
+export const trackQuery = (id: string, ended: string | null) =>
   queryOptions({
-    queryKey: ["track", id],
+    queryKey: ["track", id, ended],
     queryFn: ({ signal }) => get<RunTrack>(`/api/runs/${id}/track`, signal),
     staleTime: 30_000,
   });

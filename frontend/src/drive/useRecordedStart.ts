@@ -14,6 +14,6 @@ export function useRecordedStart(): void {
     if (!runId || asked.current === runId || history.missed !== runId) return;
     asked.current = runId;
     // Without a recorded start the line simply begins here.
-    client.fetchQuery(trackQuery(runId)).then((track) => history.seed(runId, track), () => undefined);
+    client.fetchQuery(trackQuery(runId, null)).then((track) => history.seed(runId, track), () => undefined);
   }, [runId, history, client]);
 }

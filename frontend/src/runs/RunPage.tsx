@@ -22,7 +22,7 @@ import { usePlayback } from "./usePlayback";
 /** One run, to be looked at again. */
 export function RunPage({ runId }: { runId: string }) {
   const run = useQuery(runQuery(runId));
-  const track = useQuery({ ...trackQuery(runId), enabled: Boolean(run.data?.ended) });
+  const track = useQuery({ ...trackQuery(runId, run.data?.ended ?? null), enabled: Boolean(run.data?.ended) });
   const error = run.error ?? track.error;
   if (!run.data) return error ? <Reasons reasons={sentences(error)} /> : <Loader m="xl" />;
   return (
@@ -40,9 +40,11 @@ function StillGoing() {
     </Button>
   );
   return (
-    <EmptyState icon={IconRoute} title="The robot is still on its way" action={toDrive}>
-      The run can be replayed here as soon as it has ended.
-    </EmptyState>
+    <div className={css.whole}>
+      <EmptyState icon={IconRoute} title="The robot is still on its way" action={toDrive}>
+        The run can be replayed here as soon as it has ended.
+      </EmptyState>
+    </div>
   );
 }
 
