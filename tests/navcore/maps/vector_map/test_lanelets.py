@@ -86,7 +86,7 @@ def _without_what_xml_lacks(vector_map: VectorMap) -> bool:
     return not any(_NO_XML.search(text) for text in texts)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=20, deadline=None)
 @given(sites)
 def test_whatever_is_drawn_comes_back_the_same(site: SiteMap) -> None:
     vector_map = vector_map_of(site)

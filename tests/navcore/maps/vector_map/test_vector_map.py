@@ -22,7 +22,7 @@ from tests.navcore.maps.test_lossless import sites
 from tests.navcore.maps.vector_map.test_lanelets import FARM, MAP, TURN
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=30, deadline=None)
 @given(sites)
 def test_from_site_to_site_changes_nothing(site: SiteMap) -> None:
     assert site_of(vector_map_of(site)) == site

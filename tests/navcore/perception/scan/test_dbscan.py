@@ -38,7 +38,7 @@ def turn(distances: Floats, start: float, span: float) -> Floats:
 
 
 @given(places, st.sampled_from([0.1003, 0.2501, 0.47]), st.integers(1, 6))
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=100, deadline=None)
 def test_points_in_any_order_make_scikit_learns_clusters(cells: Ints, eps: float, min_points: int) -> None:
     points = (cells * 0.05).astype(np.float64)
     assert dbscan(points, eps=eps, min_points=min_points).tolist() == scikit_learn(points, eps, min_points).tolist()
@@ -48,7 +48,7 @@ def test_points_in_any_order_make_scikit_learns_clusters(cells: Ints, eps: float
     hnp.arrays(np.float64, st.integers(1, 90), elements=st.floats(0.3, 3.0)),
     st.floats(-7.0, 7.0), st.sampled_from([-2.0, 1.5, 2.0]), st.integers(1, 5),
 )  # fmt: skip
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=100, deadline=None)
 def test_a_scan_makes_scikit_learns_clusters(distances: Floats, start: float, turns: float, min_points: int) -> None:
     """Full turns wrap around; scans to the left and to the right."""
     points = turn(distances, start, turns * math.pi)

@@ -66,7 +66,7 @@ def test_no_subset_of_the_points_fits_a_strip_better(cells: NDArray[np.int64]) -
 
 
 @given(many, st.floats(-math.pi, math.pi), st.floats(-3.0, 3.0))
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=100, deadline=None)
 def test_no_other_line_has_more_points(cells: NDArray[np.int64], heading: float, offset: float) -> None:
     points = cells / 1000.0
     if (points == points[0]).all():
