@@ -17,7 +17,7 @@ def train_ground(
     out: Annotated[Path, typer.Argument(help="File to write.")] = Path("ground.onnx"),
     plantings: Annotated[int, typer.Option(min=1, help="Of each of the five segments.")] = 5,
     shots: Annotated[int, typer.Option(min=1, help="Pictures of each planting.")] = 32,
-    epochs: Annotated[int, typer.Option(min=1, help="Passes over the pictures.")] = 12,
+    epochs: Annotated[int, typer.Option(min=1, help="Passes over the pictures.")] = 14,
     seed: Annotated[int, typer.Option(help="Of weights, order and augmentation.")] = 1,
     threads: Annotated[int, typer.Option(min=1, help="CPU threads.")] = 1,
 ) -> None:

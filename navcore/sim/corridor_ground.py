@@ -59,7 +59,7 @@ def _line(trees: Floats) -> Floats:
 
 def ground_mask(view: View, layers: Layers, corridor: Corridor) -> Mask:
     """(H, W) where the last picture shows the corridor's ground and nothing stands before it."""
-    low = np.isin(layers.tag & 15, GROUND) & (layers.tag >> 4 == 0) & (layers.inverse_depth > 0.0)
+    low: Mask = np.isin(layers.tag & 15, GROUND) & (layers.tag >> 4 == 0) & (layers.inverse_depth > 0.0)
     rows, columns = np.nonzero(low)
     depth = 1.0 / layers.inverse_depth[rows, columns].astype(np.float64)
     u, v = depth * (columns + 0.5 - view.cx) / view.fx, depth * (rows + 0.5 - view.cy) / view.fy

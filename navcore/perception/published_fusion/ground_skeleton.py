@@ -43,8 +43,10 @@ class GroundSkeletonParams:
     min_rows: int = 25
 
     def __post_init__(self) -> None:
-        if min(self.opening_px, self.closing_px, self.min_rows, *self.raster) < 1 or not 0.0 < self.min_ground < self.max_ground < 1.0:
-            raise ConfigError("The skeleton needs brushes and rows of 1 px or more, and shares of ground from 0 to 1.")
+        if min(self.opening_px, self.closing_px, self.min_rows, *self.raster) < 1:
+            raise ConfigError("The skeleton needs brushes, a raster and rows of 1 px or more.")
+        if not 0.0 < self.min_ground < self.max_ground < 1.0:
+            raise ConfigError("The skeleton needs shares of ground between 0 and 1, the lesser one first.")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -64,7 +66,10 @@ class MaskLine:
 
 
 def mask_line(mask: Mask, params: GroundSkeletonParams) -> MaskLine:
-    """Opening, closing, Guo-Hall thinning, RANSAC. Raises ContractError for what is no mask (H, W) of truth values."""
+    """Opening, closing, Guo-Hall thinning, RANSAC.
+
+    Raises ContractError for what is no mask (H, W) of truth values.
+    """
     if mask.ndim != 2 or mask.dtype != np.bool_:
         raise ContractError(f"A mask of the ground is (H, W) of truth values, not {mask.shape} of {mask.dtype}.")
     ground, raster = cleaned(mask, params), np.array(params.raster)

@@ -1,4 +1,4 @@
-"""The net that tells the corridor's ground, pixel by pixel: an encoder to a sixteenth, and a decoder back to a half."""
+"""The net that tells the corridor's ground, pixel by pixel: an encoder, and a decoder with its finer features."""
 
 from __future__ import annotations
 

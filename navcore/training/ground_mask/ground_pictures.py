@@ -96,9 +96,10 @@ def random_pose(corridor: Corridor, params: GroundPicturesParams, rng: np.random
     left, right = (float(np.interp(along, line[:, 0], line[:, 1])) for line in (corridor.left, corridor.right))
     T_map_row = corridor.T_row_map.inverse()
     x, y = T_map_row.apply_point(along, (left + right) / 2 + float(rng.uniform(-params.left, params.left)))
-    turn, roll, pitch = np.radians((rng.uniform(-1.0, 1.0) * params.turn_deg, *rng.normal(0.0, params.tilt_std_deg, 2)))
-    yaw = math.remainder(T_map_row.yaw + float(turn), 2 * math.pi)
-    return SimTruth(stamp_ns=0, x=x, y=y, yaw=yaw, roll=float(roll), pitch=float(pitch), v=0.0, omega=0.0)
+    turn = math.radians(params.turn_deg) * float(rng.uniform(-1.0, 1.0))
+    roll, pitch = np.radians(rng.normal(0.0, params.tilt_std_deg, 2)).tolist()
+    yaw = math.remainder(T_map_row.yaw + turn, 2 * math.pi)
+    return SimTruth(stamp_ns=0, x=x, y=y, yaw=yaw, roll=roll, pitch=pitch, v=0.0, omega=0.0)
 
 
 def squeezed_mask(frame: RenderedFrame) -> Mask:
