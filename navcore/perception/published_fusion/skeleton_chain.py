@@ -38,7 +38,11 @@ class SkeletonChainParams:
 
 
 class SegmentationSkeleton:
-    """Camera alone, flat ground. It tells neither the row's width nor its end, as published."""
+    """Camera alone, flat ground. It tells neither the row's width nor its end, as published.
+
+    Where a wide corridor leaves the picture on one side, the skeleton bends that way, and RANSAC may take the bend for
+    the row: so in 2 of 100 drawn masks of corridors 2 to 3 m wide, from within 0.3 m and 5 deg of their middle.
+    """
 
     def __init__(self, camera: PinholeCamera, segmenter: Segmenter, params: SkeletonChainParams) -> None:
         """`camera` is mounted in `base_link`."""
@@ -55,14 +59,11 @@ class SegmentationSkeleton:
         if image.shape != (c.height_px, c.width_px, 3):
             raise ContractError(f"The camera's pictures are {c.height_px} x {c.width_px} x 3, not {image.shape}.")
         found = mask_line(self._segmenter.segment(image), self._params.skeleton)
-        points = self._on_ground(found.skeleton)
         line, reason = self._line(found)
-        centre = self._kalman.update(line)
-        kept = found.kept[np.isfinite(points).all(axis=1)]
-        points = points[np.isfinite(points).all(axis=1)]
-        row = self._row(stamp_ns, centre, line is not None, reason)
-        seen = PublishedRow(row=row, left=None, right=None, points=points, on_left=points[:, 1] > 0.0, kept=kept)
-        return PublishedView(found=seen, scan=np.empty((0, 2)), labels=np.empty(0, dtype=np.int64))
+        row = self._row(stamp_ns, self._kalman.update(line), line is not None, reason)
+        return PublishedView(
+            found=self._seen(row, found), scan=np.empty((0, 2)), labels=np.empty(0, dtype=np.int64)
+        )  # fmt: skip
 
     def forget(self) -> None:
         """The next picture is of another place."""
@@ -81,6 +82,14 @@ class SegmentationSkeleton:
             return Line2.through((near[0], near[1]), (far[0], far[1])), ""
         except InputError:
             return None, BROKEN
+
+    def _seen(self, row: RowObservation, found: MaskLine) -> PublishedRow:
+        points = self._on_ground(found.skeleton)
+        below = np.isfinite(points).all(axis=1)
+        return PublishedRow(
+            row=row, left=None, right=None, points=points[below], on_left=points[below, 1] > 0.0,
+            kept=found.kept[below],
+        )  # fmt: skip
 
     def _row(self, stamp_ns: int, centre: Line2 | None, seen: bool, reason: str) -> RowObservation:
         p = self._params

@@ -13,8 +13,8 @@ Bytes = NDArray[np.uint8]
 def thin(mask: Bytes) -> Bytes:
     """(H, W) of 0 and 1 -> (H, W): as connected as before, a pixel wide.
 
-    The picture's edge is no edge of what is seen: a mask that reaches it goes on beyond, as in OpenCV's thinning, and
-    is not worn off from there. What the whole edge holds has no middle in sight and is worn off towards it.
+    The picture's edge is no edge of what it shows: a mask that reaches it is not worn off from there (OpenCV's
+    thinning leaves the outermost pixels alone too). Ground without an edge in sight stays as it is, or wears off.
 
     Both passes mark first and delete then, so that the order in which pixels are looked at does not matter.
     """

