@@ -40,8 +40,8 @@ class SkeletonChainParams:
 class SegmentationSkeleton:
     """Camera alone, flat ground. It tells neither the row's width nor its end, as published.
 
-    Where a wide corridor leaves the picture on one side, the skeleton bends that way, and RANSAC may take the bend for
-    the row: so in 2 of 100 drawn masks of corridors 2 to 3 m wide, from within 0.3 m and 5 deg of their middle.
+    Where a wide corridor leaves the picture on one side, the skeleton bends that way, and RANSAC may take the bend
+    for the row: in 2 of 100 drawn masks of corridors 2 to 3 m wide, from within 0.3 m and 5 deg of their middle.
     """
 
     def __init__(self, camera: PinholeCamera, segmenter: Segmenter, params: SkeletonChainParams) -> None:
