@@ -75,6 +75,16 @@ def test_the_row_is_where_its_ground_lies(left: float, turn: float, width: float
     assert row.right_seen
 
 
+def test_the_skeleton_lies_along_the_rows_middle_from_the_pictures_lower_edge_on() -> None:
+    eye = Drawn(corridor(SE2(0.0, 0.1, 0.0), width=2.0))
+    found = SegmentationSkeleton(CAMERA, eye, SkeletonChainParams()).process(0, PICTURE).found
+    on = found.points[found.kept]
+    nearest = CAMERA.ground(np.array([(320.0, 360.0)]))[0, 0]
+    assert on[:, 0].min() == pytest.approx(nearest, abs=0.05)  # m
+    assert 8.0 < on[:, 0].max() < 15.0  # m: the corridor's end
+    assert on[:, 1] == pytest.approx(-0.1, abs=0.25)  # m: a pixel of the raster, far away
+
+
 def test_it_tells_neither_the_rows_width_nor_its_end() -> None:
     row = seen(corridor(SE2(0.0, 0.1, 0.0)))
     assert (row.width, row.end_distance, row.seen_to) == (None, None, None)
