@@ -18,11 +18,11 @@ def train_ground(
     plantings: Annotated[int, typer.Option(min=1, help="Of each of the five segments.")] = 5,
     shots: Annotated[int, typer.Option(min=1, help="Pictures of each planting.")] = 32,
     epochs: Annotated[int, typer.Option(min=1, help="Passes over the pictures.")] = 14,
-    seed: Annotated[int, typer.Option(help="Of weights, order and augmentation.")] = 1,
+    seed: Annotated[int, typer.Option(min=0, help="Of weights, order and augmentation.")] = 1,
     threads: Annotated[int, typer.Option(min=1, help="CPU threads.")] = 1,
 ) -> None:
     """Render young orchards with their ground, train the net, export it and print its IoU on plantings held out."""
-    from navcore.errors import RowpilotError
+    from navcore.errors import InputError, RowpilotError
     from navcore.training.ground_mask.ground_export import export_ground
     from navcore.training.ground_mask.ground_pictures import (
         HELD_OUT,
@@ -37,6 +37,8 @@ def train_ground(
 
     wanted = GroundPicturesParams(plantings=plantings, shots=shots)
     try:
+        if not out.parent.is_dir():
+            raise InputError(f"There is no folder {out.parent} to write {out.name} to; make it first.")
         training = render_pictures(TRAINING, wanted, typer.echo)
         held_out = render_pictures(VALIDATION, HELD_OUT, typer.echo)
         params = GroundTrainerParams(epochs=epochs, seed=seed, threads=threads)
