@@ -22,4 +22,5 @@ class Tracking(NamedTuple):
 
 LIDAR_RANSAC = Tracking(0.070, 0.090, 0.759)
 VISION_RANSAC = Tracking(0.066, 0.082, 0.898)
+SEGMENTATION = Tracking(0.069, 0.086, 0.870)
 FUSED = Tracking(0.052, 0.066, 0.954)

@@ -22,6 +22,7 @@ from navcore.cli import (
     score,
     see,
     train,
+    train_ground,
     trunks,
     vectormap,
 )
@@ -43,6 +44,7 @@ app.add_typer(decode_app, name="decode")
 dataset.register(app)
 evaluate.register(app)
 train.register(app)
+train_ground.register(app)
 export.register(app)
 run.register(app)
 replay.register(app)

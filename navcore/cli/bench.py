@@ -107,7 +107,9 @@ def bench_rows(
 
 @bench_app.command("fusion")
 def bench_fusion(
-    quick: Annotated[bool, typer.Option("--quick", help="Two drives a chain, boxes from the truth.")] = False,
+    quick: Annotated[
+        bool, typer.Option("--quick", help="Two drives a chain, boxes from the truth (segmentation: pictures).")
+    ] = False,
     as_json: Annotated[bool, typer.Option("--json", help="A JSON list, one row a figure.")] = False,
     resume: Annotated[
         Path | None, typer.Option(metavar="FOLDER", help="Keep the drives here, and go on with what is here.")

@@ -64,10 +64,13 @@ class OnnxDetector:
         return blob
 
 
-def open_model(path: Path) -> Any:
-    """A session on one thread. Raises ModelError with a sentence for a file that is missing or broken."""
+def open_model(path: Path, *, what: str = "detector", verb: str = "train") -> Any:
+    """A session on one thread. Raises ModelError with a sentence for a file that is missing or broken.
+
+    `what` the model is, and the `rowpilot` verb that trains one.
+    """
     if not path.is_file():
-        raise ModelError(f"There is no detector at {path}; train one with `rowpilot train` or restore the file.")
+        raise ModelError(f"There is no {what} at {path}; train one with `rowpilot {verb}` or restore the file.")
     options = ort.SessionOptions()
     options.intra_op_num_threads = options.inter_op_num_threads = 1
     options.execution_mode = ort.ExecutionMode.ORT_SEQUENTIAL
@@ -78,7 +81,7 @@ def open_model(path: Path) -> Any:
     try:
         return ort.InferenceSession(str(path), options, providers=["CPUExecutionProvider"])
     except Exception as error:  # ONNX Runtime raises classes of its own that share no base
-        raise ModelError(f"The detector {path} is damaged or no ONNX model; restore the file.") from error
+        raise ModelError(f"The {what} {path} is damaged or no ONNX model; restore the file.") from error
 
 
 def _input_size(session: Any, path: Path) -> tuple[str, int, int]:

@@ -12,6 +12,7 @@ from navcore.geometry.pinhole import PinholeCamera, rotation_from_rpy
 from navcore.messages import SimTruth
 from navcore.sim.camera_labels import LabelParams, RenderedObject, label_objects, rows_nearer
 from navcore.sim.camera_light import LightParams
+from navcore.sim.corridor_ground import Corridor, ground_mask
 from navcore.sim.orchard import Orchard
 from navcore.sim.render.buffers import View, new_layers, new_queue
 from navcore.sim.render.canopy import leaf_cards
@@ -31,18 +32,28 @@ Picture = NDArray[np.uint8]
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class RenderedFrame:
-    """A picture (H, W, 3) uint8 blue, green, red, and the true boxes in it (empty when labels are off)."""
+    """A picture (H, W, 3) uint8 blue, green, red, and the truth about it that was asked for.
+
+    Attributes:
+        objects: true boxes; none when labels are off.
+        ground: (H, W) where it shows the ground of `RenderParams.corridor`; None without one.
+    """
 
     image: Picture
     objects: tuple[RenderedObject, ...]
+    ground: NDArray[np.bool_] | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RenderParams:
-    """Attributes: range: nothing farther is drawn, m, 20 to 300; labels: whether to make true boxes."""
+    """Attributes:
+    range: nothing farther is drawn, m, 20 to 300.
+    labels: whether to make true boxes. corridor: whose ground to tell.
+    """
 
     range: float = 90.0
     labels: LabelParams | None = None
+    corridor: Corridor | None = None
 
 
 class Scene:
@@ -96,7 +107,9 @@ class CameraRenderer:
             view, layers, scene.shadow(truth.x, truth.y), lighting, scene.tables, int(rng.integers(509)),
             int(rng.integers(1021)), (orchard.canopy_bottom_m, orchard.canopy_top_m), picture,
         )  # fmt: skip
-        return RenderedFrame(image=self._blurred(picture), objects=self._objects(view))
+        corridor = self._params.corridor
+        ground = ground_mask(view, layers, corridor) if corridor else None
+        return RenderedFrame(image=self._blurred(picture), objects=self._objects(view), ground=ground)
 
     def _draw(self, view: View, lighting: Lighting) -> None:
         """All that stands, then the ground, into the layers."""

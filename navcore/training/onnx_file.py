@@ -15,13 +15,15 @@ from navcore.training.model import INPUT_HEIGHT_PX, INPUT_WIDTH_PX
 
 def write_onnx(
     deployed: nn.Module, path: Path, *, image: str, outputs: list[str], difference: Callable[[], float],
-    max_difference: float,
+    max_difference: float, size: tuple[int, int] = (INPUT_HEIGHT_PX, INPUT_WIDTH_PX),
 ) -> float:  # fmt: skip
     """Write a network of one input, called `image`, to `path`; the `difference` that is measured of the file then.
 
+    Pictures are of `size`, height and width in pixels.
+
     Raises ModelError, and leaves no file, if that is more than `max_difference`.
     """
-    blob = torch.zeros(1, 3, INPUT_HEIGHT_PX, INPUT_WIDTH_PX)
+    blob = torch.zeros(1, 3, *size)
     with warnings.catch_warnings():
         # The exporter that needs no further package tells at length that there is a newer one.
         warnings.simplefilter("ignore")
@@ -31,5 +33,5 @@ def write_onnx(
     measured = difference()
     if measured > max_difference:
         path.unlink()
-        raise ModelError(f"The exported detector differs from torch by {measured:.2g}; do not use it.")
+        raise ModelError(f"The exported network differs from torch by {measured:.2g}; do not use it.")
     return measured

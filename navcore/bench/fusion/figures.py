@@ -22,7 +22,7 @@ WANTED = Tracking(0.020, 0.025, 0.995)
 WANTED_FOUND, WANTED_WRONG, WANTED_THICKNESS_M = 0.98, 0.01, 0.01
 PAPER = {
     Chain.OURS: paper_b.FUSED, Chain.PUBLISHED: paper_b.FUSED, Chain.LIDAR: paper_b.LIDAR_RANSAC,
-    Chain.VISION: paper_b.VISION_RANSAC,
+    Chain.VISION: paper_b.VISION_RANSAC, Chain.SEGMENTATION: paper_b.SEGMENTATION,
 }  # fmt: skip
 TABLE = "Paper B, Tables 5 and 6: lateral deviation"
 

@@ -8,6 +8,7 @@ from itertools import product
 
 from navcore.bench.mission.cases import EyeKind
 from navcore.bench.paper_b import LIGHTS
+from navcore.errors import ConfigError
 from navcore.sim.camera_light import LightName
 from navcore.sim.young_orchard import Segment, YoungSegment, scoring_segment, tuning_segment
 
@@ -16,7 +17,8 @@ class Chain(StrEnum):
     """Who sees the row; the same robot drives by it.
 
     OURS: camera and LiDAR. ORACLE: the same fit on the true trunks, which bounds what any sensor could do.
-    PUBLISHED: paper B's fusion. LIDAR, VISION: its rivals with one sensor and RANSAC.
+    PUBLISHED: paper B's fusion. LIDAR, VISION: its rivals with one sensor and RANSAC. SEGMENTATION: its rival that
+    segments the ground; a small net of our own stands in place of DeepLab v3+.
     """
 
     OURS = "ours"
@@ -24,11 +26,15 @@ class Chain(StrEnum):
     PUBLISHED = "fusion as published"
     LIDAR = "LiDAR + RANSAC"
     VISION = "vision + RANSAC"
+    SEGMENTATION = "segmentation + skeleton"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SegmentCase:
-    """One drive. `speed` in the row, m/s; `run` counts the plantings of a segment; `tuning`: one to tune on."""
+    """One drive. `speed` in the row, m/s; `run` counts the plantings of a segment; `tuning`: one to tune on.
+
+    Raises ConfigError for a segmentation without pixels: no truth stands in for what a net makes of a picture.
+    """
 
     chain: Chain
     segment: Segment
@@ -37,6 +43,10 @@ class SegmentCase:
     light: LightName
     eye: EyeKind = EyeKind.PIXELS
     tuning: bool = False
+
+    def __post_init__(self) -> None:
+        if self.chain is Chain.SEGMENTATION and self.eye is not EyeKind.PIXELS:
+            raise ConfigError("The segmentation drives by pictures alone: let its eye be pixels.")
 
     def young(self) -> YoungSegment:
         """What is driven through."""
@@ -65,7 +75,7 @@ def segment_cases(params: SegmentCaseParams) -> tuple[SegmentCase, ...]:
             run=run,
             speed=params.slowest + (params.fastest - params.slowest) * run / steps,
             light=LIGHTS[(run + i) % len(LIGHTS)],
-            eye=params.eye,
+            eye=EyeKind.PIXELS if chain is Chain.SEGMENTATION else params.eye,
             tuning=params.tuning,
         )
         for (i, segment), run, chain in product(enumerate(params.segments), range(params.runs), Chain)

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from navcore.bench.fusion.segment_cases import Chain, SegmentCase
 from navcore.bench.fusion.segment_eyes import ChainEye, OracleEye, OurEye, Pictures, new_chain
 from navcore.bench.fusion.segment_survey import SegmentSurvey
+from navcore.bench.fusion.skeleton_eye import SkeletonEye
 from navcore.bench.fusion.tree_matches import TreeMatches, WatchedEye
 from navcore.config import RobotConfig
 from navcore.errors import MissionError
@@ -80,6 +81,8 @@ def _eye(case: SegmentCase, world: World, config: RobotConfig) -> Eye:
     if case.chain is Chain.OURS and pictures is not None:
         published = ChainEye(new_chain(Chain.PUBLISHED, mount), None, mount)
         return WatchedEye(OurEye(pictures, config, mount), published, pictures, world.orchard, mount)
+    if case.chain is Chain.SEGMENTATION and pictures is not None:
+        return SkeletonEye(pictures)
     return ChainEye(new_chain(case.chain, mount), pictures, mount)
 
 

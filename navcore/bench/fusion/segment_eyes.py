@@ -166,7 +166,7 @@ class ChainEye:
         objects: tuple[DetectedObject, ...] = ()
         if self._pictures is not None:
             objects = self._pictures.detector(request.camera).detect(self._pictures.take(truth, request.camera))
-        return _bare_view(self.feed(truth.stamp_ns, request, objects, scans), objects)
+        return bare_view(self.feed(truth.stamp_ns, request, objects, scans), objects)
 
     def feed(
         self, stamp_ns: int, request: CameraRequest, objects: tuple[DetectedObject, ...], scans: tuple[LidarScan, ...]
@@ -189,7 +189,8 @@ def new_chain(chain: Chain, mount: LidarMount) -> RowChain:
     return VisionRansac(camera, params) if chain is Chain.VISION else PublishedFusion(camera, mount, params)
 
 
-def _bare_view(row: RowObservation, objects: tuple[DetectedObject, ...]) -> CameraView:
+def bare_view(row: RowObservation, objects: tuple[DetectedObject, ...]) -> CameraView:
+    """A row and the boxes that it is of, without a picture."""
     return CameraView(
         stamp_ns=row.stamp_ns, camera=row.camera, width_px=640, height_px=360, objects=objects, points=(), left=None,
         right=None, centre=None, row=row, latency_ms=0.0,

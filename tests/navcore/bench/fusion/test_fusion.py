@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +14,7 @@ from navcore.bench.fusion.segment_cases import Chain, SegmentCase, SegmentCasePa
 from navcore.bench.fusion.segment_drive import STATIONS, SegmentResult
 from navcore.bench.fusion.tree_matches import Tally, known_tree
 from navcore.bench.mission.cases import EyeKind
+from navcore.errors import ConfigError
 from navcore.sim.camera_light import LightName
 from navcore.sim.young_orchard import Segment
 
@@ -91,5 +93,20 @@ def test_a_segment_is_driven_close_to_its_middle_and_kept(tmp_path: Path) -> Non
     assert list(read_drives(tmp_path / DRIVES)) == [CASE]
 
 
-def test_the_quick_drives_are_few() -> None:
-    assert len(segment_cases(QUICK_DRIVES)) <= 10
+def test_the_quick_drives_are_two_a_chain() -> None:
+    assert len(segment_cases(QUICK_DRIVES)) == 2 * len(Chain)
+
+
+def test_the_segmentation_drives_by_pictures_even_where_the_others_get_the_truth() -> None:
+    cases = segment_cases(replace(QUICK_DRIVES, eye=EyeKind.TRUTH))
+    assert {(c.chain is Chain.SEGMENTATION, c.eye) for c in cases} == {(True, EyeKind.PIXELS), (False, EyeKind.TRUTH)}
+    with pytest.raises(ConfigError, match="pictures alone"):
+        replace(CASE, chain=Chain.SEGMENTATION)
+
+
+def test_the_segmentation_stands_beside_what_paper_b_published_of_it() -> None:
+    figures = drive_figures((result(0.05, -0.07, chain=Chain.SEGMENTATION),))
+    told = {f.figure: f for f in figures if "skeleton" in f.figure}
+    mean, within = (told[f"lateral {name}, segmentation + skeleton"] for name in ("mean", "within 10 cm"))
+    assert mean.value == pytest.approx(0.06)
+    assert (mean.paper, within.value, within.paper) == (0.069, 1.0, 0.870)
