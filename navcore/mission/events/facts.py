@@ -63,7 +63,7 @@ class EventParams:
     lidar3d_deg: float = 2.5
     lidar3d_least: int = 100
     air: float = 0.09
-    gone: float = 0.12
+    gone: float = 0.07
     passed: int = 12
     battery_low_v: float = 23.5
     battery_stop_v: float = 22.0

@@ -41,11 +41,12 @@ class PublishedFusionParams:
     """Every stage's own values.
 
     Attributes:
-        min_confidence: boxes below are not used, 0 to 1 (paper B: 0.5).
+        min_confidence: boxes below are not used, 0 to 1 (paper B: 0.5, of its own detector; the shipped one is as sure
+            of what it finds at 0.3, and above it too few trunks are left to enter a row).
         vision_range: feet further away are out of range for vision alone, m. Open in the paper.
     """
 
-    min_confidence: float = 0.5
+    min_confidence: float = 0.3
     vision_range: float = 8.0
     filter: ScanFilterParams = ScanFilterParams()
     dbscan: DbscanParams = DbscanParams()

@@ -83,7 +83,7 @@ def test_no_box_gives_no_row_by_camera_and_unsure_ones_neither() -> None:
     rng = np.random.default_rng(5)
     boxes, _, scan = Corridor.planted(rng).seen(POSE, rng)
     points = scan_points(scan, LIDAR, ScanPointsParams())
-    unsure = [replace(box, confidence=0.4) for box in boxes]
+    unsure = [replace(box, confidence=0.2) for box in boxes]
     for seen in ([], unsure):
         row = PublishedFusion(CAMERA, LIDAR, PARAMS).process(0, seen, points).found.row
         assert (row.valid, row.reason) == (False, "no line of plants on either side")
