@@ -41,8 +41,8 @@ class PublishedFusionParams:
     """Every stage's own values.
 
     Attributes:
-        min_confidence: boxes below are not used, 0 to 1 (paper B: 0.5, of its own detector; the shipped one is as sure
-            of what it finds at 0.3, and above it too few trunks are left to enter a row).
+        min_confidence: boxes below are not used, 0 to 1 (paper B: 0.5, of its own detector; the shipped one is as
+            sure of what it finds at 0.3, and above it too few trunks are left to enter a row).
         vision_range: feet further away are out of range for vision alone, m. Open in the paper.
     """
 
