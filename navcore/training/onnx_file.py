@@ -6,6 +6,8 @@ import warnings
 from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
+import onnxruntime as ort
 import torch
 from torch import nn
 
@@ -35,3 +37,18 @@ def write_onnx(
         path.unlink()
         raise ModelError(f"The exported network differs from torch by {measured:.2g}; do not use it.")
     return measured
+
+
+def largest_difference(
+    deployed: nn.Module, path: Path, size: tuple[int, int] = (INPUT_HEIGHT_PX, INPUT_WIDTH_PX), *, pictures: int = 3,
+    seed: int = 1,
+) -> float:  # fmt: skip
+    """Of the file's one output from torch's, on random pictures of `size`."""
+    session = ort.InferenceSession(str(path), providers=["CPUExecutionProvider"])
+    name, rng, worst = session.get_inputs()[0].name, np.random.default_rng(seed), 0.0
+    for _ in range(pictures):
+        blob = rng.random((1, 3, *size), dtype=np.float32)
+        with torch.no_grad():
+            wanted = deployed(torch.from_numpy(blob)).numpy()
+        worst = max(worst, float(np.abs(session.run(None, {name: blob})[0] - wanted).max()))
+    return worst

@@ -8,13 +8,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-import onnxruntime as ort
 import torch
 from numpy.typing import NDArray
 from torch import Tensor, nn
 
 from navcore.training.model import INPUT_HEIGHT_PX, INPUT_WIDTH_PX
-from navcore.training.onnx_file import write_onnx
+from navcore.training.onnx_file import largest_difference, write_onnx
 from navcore.training.yolo_net import cell_centres, corners, flattened
 
 Singles = NDArray[np.float32]
@@ -45,20 +44,9 @@ def export_yolo(net: nn.Module, path: Path, *, max_difference: float = 1e-2) -> 
     """
     deployed = DeployedYolo(net).eval()
     return write_onnx(
-        deployed, path, image="images", outputs=["output0"], difference=lambda: _largest_difference(deployed, path),
+        deployed, path, image="images", outputs=["output0"], difference=lambda: largest_difference(deployed, path),
         max_difference=max_difference,
     )  # fmt: skip
-
-
-def _largest_difference(deployed: nn.Module, path: Path, *, pictures: int = 2, seed: int = 1) -> float:
-    session = ort.InferenceSession(str(path), providers=["CPUExecutionProvider"])
-    rng, worst = np.random.default_rng(seed), 0.0
-    for _ in range(pictures):
-        blob = rng.random((1, 3, INPUT_HEIGHT_PX, INPUT_WIDTH_PX), dtype=np.float32)
-        with torch.no_grad():
-            wanted = deployed(torch.from_numpy(blob)).numpy()
-        worst = max(worst, float(np.abs(session.run(None, {"images": blob})[0] - wanted).max()))
-    return worst
 
 
 @dataclass(frozen=True, slots=True)

@@ -197,7 +197,8 @@ class MapLocalizer:
         return self._placed(found, T_odom_base)
 
     def _placed(self, found: Registration, T_odom_base: SE3) -> MapMatch:
-        """A place to be confirmed."""
+        """A place to be confirmed; what was usual elsewhere says nothing here."""
+        self._tracker = ScanFollower(self._map, self._p.tracking)
         self._last = PlacedBase(found.T_target_source, T_odom_base)
         self._confirmed = self._failed = self._overruled = 0
         self._usual = found.score

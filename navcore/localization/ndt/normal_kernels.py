@@ -83,10 +83,11 @@ def normal_equations(S: Floats, steepness: float, H: Floats, g: Floats) -> float
     """H (6, 6) and g (6,) of weighted least squares over the placed points; sum of their weights.
 
     A point at squared Mahalanobis distance m weighs (1 - steepness m / 512)^256, which is exp(-steepness m / 2) to
-    1 % of a whole weight.
+    0.11 % of a whole weight.
     """
     rxs, rys, rzs, qxs, qys, qzs = S[R_X], S[R_Y], S[R_Z], S[Q_X], S[Q_Y], S[Q_Z]
-    xxs, xys, xzs, yys, yzs, zzs = S[9], S[10], S[11], S[12], S[13], S[14]
+    A = S[INFORMATION:LIVE]
+    xxs, xys, xzs, yys, yzs, zzs = A[0], A[1], A[2], A[3], A[4], A[5]
     lives, bend = S[LIVE], -steepness / 512.0
     h00 = h01 = h02 = h03 = h04 = h05 = h11 = h12 = h13 = h14 = h15 = h22 = h23 = h24 = h25 = 0.0
     h33 = h34 = h35 = h44 = h45 = h55 = g0 = g1 = g2 = g3 = g4 = g5 = weights = 0.0

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from navcore.geometry.se3 import SE3
+from navcore.localization.gnss_noise import GnssNoiseParams
 from navcore.mapping.lidar3d.keyframe import Keyframe
 from navcore.mapping.pose_graph.pose_graph import PoseGraph, PoseGraphParams
 from navcore.mapping.pose_graph.terms import LevelTerm, PositionTerm, RelativeTerm
@@ -25,7 +26,7 @@ class DriveGraphParams:
     Attributes:
         step_std, step_turn_std: no step is surer, m and rad, above 0: the local map is crooked by as much.
         slip, slip_turn: 1-sigma of a step of which turns were lost, by odometry alone: share of the way, rad per m.
-        lasting_s: a fix's error is the same for so long, s, twice its time constant (`GnssNoiseParams`): fixes that
+        lasting_s: a fix's error is the same for so long, s, twice its time constant: fixes that
             follow each other sooner share one's weight.
         level_std: of gravity as the IMU has it, rad, above 0: mount, bias and the robot's own jerks.
         graph: its kernels.
@@ -35,7 +36,7 @@ class DriveGraphParams:
     step_turn_std: float = math.radians(0.03)
     slip: float = 0.05
     slip_turn: float = math.radians(1.0)
-    lasting_s: float = 60.0
+    lasting_s: float = 2.0 * GnssNoiseParams().fixed.slow_s
     level_std: float = math.radians(1.0)
     graph: PoseGraphParams = field(default_factory=PoseGraphParams)
 

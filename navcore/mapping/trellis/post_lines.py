@@ -60,7 +60,10 @@ def post_lines(places: Floats, params: PostLineParams = PostLineParams()) -> tup
 
 def upright_lines(places: Floats, params: PostLineParams = PostLineParams()) -> tuple[tuple[Ints, ...], ...]:
     """Families of lines as `post_lines` finds them; where most are left over, vines may stand in them like posts."""
-    families, closer = post_lines(places, params), post_lines(places, replace(params, nearest=params.plants))
+    families = post_lines(places, params)
+    if params.closer * _side_by_side(families) >= len(places):
+        return families
+    closer = post_lines(places, replace(params, nearest=params.plants))
     return closer if _side_by_side(closer) > params.closer * _side_by_side(families) else families
 
 
