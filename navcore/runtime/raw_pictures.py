@@ -32,10 +32,13 @@ class RawPictures:
         self._wanted: RawPictureWanted | None = None
         self._told_ns = 0
 
-    def hear(self, received: Received | None) -> None:
-        """Somebody asks, if it is not None."""
-        if received is not None:
-            self._wanted = decode(RawPictureWanted, received.payload)
+    def hear(self, received: Received | None, now_ns: int) -> None:
+        """Somebody asks, if it is not None. A camera may take as long to open as to fall silent."""
+        if received is None:
+            return
+        if self.wanted(now_ns) is None:
+            self._told_ns = now_ns
+        self._wanted = decode(RawPictureWanted, received.payload)
 
     def wanted(self, now_ns: int) -> CameraName | None:
         """The camera that somebody calibrates now."""

@@ -84,7 +84,7 @@ class RowWorker:
         heard, now_ns = self._bus.newest(0), time.monotonic_ns()
         if (received := heard.get(CAMERA_REQUEST.name)) is not None:
             self._request = decode(CameraRequest, received.payload)
-        self._raw.hear(heard.get(CALIBRATION_WANTED.name))
+        self._raw.hear(heard.get(CALIBRATION_WANTED.name), now_ns)
         self._tell_in_use(now_ns)
         wanted = self._request is not None and now_ns - self._request.stamp_ns <= REQUEST_AGE_NS
         self._idle = 0 if wanted else self._idle + 1
