@@ -36,6 +36,8 @@ class CalibrationVersions:
         """Put one in use. Raises ConflictError while a mission is under way, CalibrationError with the reason."""
         self._robot.require_standing("put a calibration in use")
         self._folders[choice.rehearsal].use(choice.camera, choice.id)
+        if not choice.rehearsal:
+            self._robot.load_calibration()
 
 
 def _in_use(folder: VersionFolder, camera: CameraName) -> str | None:

@@ -83,3 +83,7 @@ class RobotView:
         self.require_standing("place the robot elsewhere")
         self._supervisor.place(site_id, site)
         self._hub.forget()
+
+    def load_calibration(self) -> None:
+        """Have it see by the calibrations that are in use."""
+        self._supervisor.load_calibration()

@@ -1,8 +1,9 @@
-"""Asks the supervisor which farm the robot knows, and has it learn another."""
+"""Asks the supervisor which farm the robot knows, and has it learn another farm or calibration."""
 
 from __future__ import annotations
 
 import time
+from contextlib import suppress
 from pathlib import Path
 from threading import Lock
 
@@ -16,6 +17,7 @@ from navcore.transport.request import Requester
 from navcore.transport.supervision import SupervisorReply, SupervisorRequest, SupervisorRequestKind
 
 STATUS_LIFE_S = 1.0
+LOAD_MS = 10_000
 
 
 class SupervisorClient:
@@ -55,6 +57,11 @@ class SupervisorClient:
             self._asked_s = float("-inf")
         if not reply.accepted:
             raise RefusedError("The robot cannot be placed there.", [reply.reason])
+
+    def load_calibration(self) -> None:
+        """The robot's eyes start again with what is in use; one that does not answer takes it at its next start."""
+        with self._lock, suppress(TransportError):
+            self._ask(SupervisorRequest(kind=SupervisorRequestKind.LOAD_CALIBRATION), LOAD_MS)
 
     def _ask(self, request: SupervisorRequest, timeout_ms: int) -> SupervisorReply:
         return self._requester.ask(request, SupervisorReply, timeout_ms)

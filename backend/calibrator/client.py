@@ -79,8 +79,10 @@ class Calibrator:
         """Keep the result and put it in use; its id. Raises ConflictError while a mission is under way."""
         self._robot.require_standing("put a calibration in use")
         request = CalibratorRequest(kind=CalibratorRequestKind.ACCEPT, by=by, camera=camera)
-        _, reply = self._changed(request)
+        setup, reply = self._changed(request)
         self.throw_away()
+        if not setup.rehearsal:
+            self._robot.load_calibration()
         return reply.version_id
 
     def throw_away(self) -> None:

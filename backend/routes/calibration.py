@@ -82,7 +82,7 @@ def list_versions(station: TheStation) -> list[VersionDocument]:
 
 @router.put("/versions")
 def use_version(station: TheStation, login: TheLogin, body: VersionChoice) -> list[VersionDocument]:
-    """Put a version in use; the robot sees by it from its next start."""
+    """Put a version in use; the robot's eyes start again with it, within seconds."""
     station.calibrations.use(body)
     station.audit.write(login, "use calibration", body.id or "settings", body.camera)
     return station.calibrations.all()

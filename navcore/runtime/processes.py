@@ -61,6 +61,7 @@ class ProcessSpec:
         simulated_only: not started on a real robot.
         wanted: whether a robot needs it at all.
         knows_site: ended and started anew when the farm changes.
+        knows_calibration: ended and started anew when another calibration is put in use.
         patience_s: from SIGTERM to SIGKILL.
     """
 
@@ -70,6 +71,7 @@ class ProcessSpec:
     simulated_only: bool = False
     wanted: Callable[[Robot], bool] = lambda robot: True
     knows_site: bool = False
+    knows_calibration: bool = False
     patience_s: float = 5.0
 
 
@@ -126,7 +128,8 @@ PROCESSES: tuple[ProcessSpec, ...] = (
         name="navigator", module="navcore.runtime.navigator_process", arguments=navigator_arguments, knows_site=True
     ),
     ProcessSpec(
-        name="row_worker", module="navcore.runtime.row_worker", arguments=row_worker_arguments, knows_site=True
+        name="row_worker", module="navcore.runtime.row_worker", arguments=row_worker_arguments, knows_site=True,
+        knows_calibration=True,
     ),
     ProcessSpec(
         name="scan_worker", module="navcore.runtime.scan_worker", arguments=row_worker_arguments, wanted=has_lidar3d,

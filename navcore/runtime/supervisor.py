@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import fcntl
 import time
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import IO
@@ -65,6 +66,8 @@ class Supervisor:
             request = decode(SupervisorRequest, question)
             if request.kind is SupervisorRequestKind.LOAD_SITE:
                 self._load_site(request)
+            elif request.kind is SupervisorRequestKind.LOAD_CALIBRATION:
+                self._load_calibration()
         except RowpilotError as error:
             return self._reply(str(error))
         return self._reply()
@@ -76,13 +79,20 @@ class Supervisor:
         site = Path(request.site_path)
         if read_site(site).warehouse is None:
             raise InputError("The robot has no place there: draw the warehouse first.")
-        knowing = [child for child in self._children if child.spec.knows_site]
-        for child in reversed(knowing):
-            child.ask_to_end()
-        for child in reversed(knowing):
-            child.end()
         self._robot, self._site_id = replace(self._robot, site=site), request.site_id
-        for child in knowing:
+        self._start_again([child for child in self._children if child.spec.knows_site])
+
+    def _load_calibration(self) -> None:
+        """A simulated robot's eyes know no stored calibration."""
+        if self._robot.calibration is not None:
+            self._start_again([child for child in self._children if child.spec.knows_calibration])
+
+    def _start_again(self, children: Sequence[Child]) -> None:
+        for child in reversed(children):
+            child.ask_to_end()
+        for child in reversed(children):
+            child.end()
+        for child in children:
             child.start(self._robot, time.monotonic())
 
     def _reply(self, reason: str = "") -> SupervisorReply:

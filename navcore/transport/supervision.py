@@ -7,10 +7,15 @@ from enum import StrEnum
 
 
 class SupervisorRequestKind(StrEnum):
-    """STATUS tells of the processes; LOAD_SITE moves the robot's mind, and a simulated robot, to another farm."""
+    """What is asked.
+
+    STATUS tells of the processes; LOAD_SITE moves the robot's mind, and a simulated robot, to another farm;
+    LOAD_CALIBRATION has its eyes start again with the calibrations that are in use.
+    """
 
     STATUS = "status"
     LOAD_SITE = "load_site"
+    LOAD_CALIBRATION = "load_calibration"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -60,6 +60,7 @@ class PlayedRobot:
         self.requests: list[Request] = []
         self.stops = 0
         self.site_id: str | None = None
+        self.calibrations_loaded = 0
         self._ended = threading.Event()
         loops = (self._navigate, self._guard, self._record, self._supervise, self._look)
         self._threads = [threading.Thread(target=loop, daemon=True) for loop in loops]
@@ -150,6 +151,7 @@ class PlayedRobot:
     def _place(self, request: SupervisorRequest) -> SupervisorReply:
         if request.kind is SupervisorRequestKind.LOAD_SITE:
             self.site_id = request.site_id
+        self.calibrations_loaded += request.kind is SupervisorRequestKind.LOAD_CALIBRATION
         return SupervisorReply(accepted=True, site_id=self.site_id)
 
 

@@ -99,7 +99,7 @@ def worker_pid(station: Station) -> int:
 
 
 def test_a_camera_is_calibrated_though_its_process_is_killed_in_the_middle(
-    client: TestClient, station: Station, held: HeldBoard, settings: Settings
+    robot: PlayedRobot, client: TestClient, station: Station, held: HeldBoard, settings: Settings
 ) -> None:
     assert client.get(PATH).json() == {"setup": None, "state": None, "message": ""}
     assert client.post(PATH, json={"job": "camera"}).status_code == 201
@@ -125,6 +125,7 @@ def test_a_camera_is_calibrated_though_its_process_is_killed_in_the_middle(
     assert [(v["id"], v["in_use"], v["rehearsal"]) for v in kept] == [(answer.json()["version_id"], True, False)]
     version = VersionFolder(settings.calibration_dir, "ant").load_in_use(CameraName.FRONT)
     assert version is not None
+    assert robot.calibrations_loaded == 1
     assert (version.made_by, version.robot, version.camera, version.pictures) == ("Ada", "ant", "left", 10)
 
 
@@ -233,7 +234,9 @@ def test_only_a_simulated_robot_rehearses(settings: Settings) -> None:
     assert "Only a simulated robot rehearses" in refused.json()["reasons"][0]
 
 
-def test_an_older_version_is_put_in_use_again(client: TestClient, settings: Settings) -> None:
+def test_an_older_version_is_put_in_use_again_and_the_robot_told(
+    robot: PlayedRobot, client: TestClient, settings: Settings
+) -> None:
     folder = VersionFolder(settings.calibration_dir, "ant")
     older, newer = folder.add(CameraName.FRONT, VERSION), folder.add(CameraName.FRONT, VERSION)
     folder.use(CameraName.FRONT, newer.id)
@@ -244,8 +247,28 @@ def test_an_older_version_is_put_in_use_again(client: TestClient, settings: Sett
     assert in_use() == [newer.id]
     assert client.put(f"{PATH}/versions", json={"camera": "front", "id": older.id}).status_code == 200
     assert in_use() == [older.id]
+    assert robot.calibrations_loaded == 1
     assert client.put(f"{PATH}/versions", json={"camera": "front", "id": None}).status_code == 200
     assert in_use() == []
+    assert robot.calibrations_loaded == 2
+
+
+def test_another_rehearsal_does_not_close_the_robots_eyes(
+    robot: PlayedRobot, client: TestClient, settings: Settings
+) -> None:
+    rehearsed = VersionFolder(settings.rehearsal_dir, "ant").add(CameraName.FRONT, VERSION)
+    chosen = client.put(f"{PATH}/versions", json={"camera": "front", "id": rehearsed.id, "rehearsal": True})
+    assert chosen.status_code == 200
+    assert robot.calibrations_loaded == 0
+
+
+def test_a_robot_that_does_not_answer_takes_the_calibration_later(
+    monkeypatch: pytest.MonkeyPatch, client: TestClient, settings: Settings
+) -> None:
+    monkeypatch.setattr("backend.supervisor.LOAD_MS", 200)
+    added = VersionFolder(settings.calibration_dir, "ant").add(CameraName.FRONT, VERSION)
+    assert client.put(f"{PATH}/versions", json={"camera": "front", "id": added.id}).status_code == 200
+    assert VersionFolder(settings.calibration_dir, "ant").in_use(CameraName.FRONT) == added.id
 
 
 def test_a_damaged_version_and_another_robots_are_shown_and_cannot_be_used(

@@ -130,7 +130,7 @@ export interface paths {
         get: operations["list_versions_api_calibration_versions_get"];
         /**
          * Use Version
-         * @description Put a version in use; the robot sees by it from its next start.
+         * @description Put a version in use; the robot's eyes start again with it, within seconds.
          */
         put: operations["use_version_api_calibration_versions_put"];
         post?: never;

@@ -43,5 +43,5 @@ export function AcceptCard({ state }: { state: CalibrationState }) {
 function acceptedWords({ setup }: CalibrationState): string {
   if (setup.rehearsal) return "Kept as a rehearsal. The robot does not see by it.";
   const then = setup.job === "camera" ? " If there is a LiDAR, calibrate the camera to it next." : "";
-  return `Kept. The robot sees by it from its next start.${then}`;
+  return `Kept. The robot sees by it in a few seconds.${then}`;
 }

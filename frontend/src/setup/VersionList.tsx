@@ -19,9 +19,9 @@ export function VersionList({ versions, disabled }: { versions: VersionDocument[
   const client = useQueryClient();
   const use = useMutation({
     mutationFn: (choice: { camera: CameraName; id: string | null; rehearsal: boolean }) => put<VersionDocument[]>("/api/calibration/versions", choice),
-    onSuccess: (stored) => {
+    onSuccess: (stored, choice) => {
       client.setQueryData(versionsQuery.queryKey, stored);
-      notifyDone("The robot sees by it from its next start.");
+      notifyDone(chosenWords(choice));
     },
     onError: notifyError,
   });
@@ -40,6 +40,11 @@ export function VersionList({ versions, disabled }: { versions: VersionDocument[
       ))}
     </section>
   );
+}
+
+function chosenWords({ id, rehearsal }: { id: string | null; rehearsal: boolean }): string {
+  if (rehearsal) return id ? "Rehearsals go by it." : "Put aside.";
+  return `The robot sees by ${id ? "it" : "its settings"} in a few seconds.`;
 }
 
 function VersionLine({ stored, disabled, onUse }: { stored: VersionDocument; disabled: boolean; onUse: (id: string | null) => void }) {

@@ -20,10 +20,10 @@ const VERSION: CalibrationVersion = {
 const STORED: VersionDocument = { id: "a", camera: "front", version: VERSION, problem: "", in_use: true, rehearsal: false };
 const told = (front: string) => ({ stamp_ns: 1, robot: "north", front, rear: "" });
 
-test("a chosen calibration is in use only once the robot has started with it", () => {
+test("a chosen calibration is in use only once the robot sees by it", () => {
   expect(inUseWords(STORED, told("a"))?.text).toBe("In use");
-  expect(inUseWords(STORED, told("older"))?.text).toBe("From the robot's next start");
-  expect(inUseWords(STORED, null)?.text).toBe("From the robot's next start");
+  expect(inUseWords(STORED, told("older"))?.text).toBe("The robot does not see by it yet");
+  expect(inUseWords(STORED, null)?.text).toBe("The robot does not see by it yet");
 });
 
 test("what was found in a rehearsal is never said to be in use", () => {

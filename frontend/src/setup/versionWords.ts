@@ -2,13 +2,13 @@
 import type { CalibrationInUse, CalibrationVersion, VersionDocument } from "../api/types";
 import type { Tone } from "../ui/words";
 
-/** A chosen one is seen by only when the robot has started with it; what was found in a rehearsal never is. */
+/** A chosen one is seen by only when the robot's eyes have started again with it; what was found in a rehearsal never is. */
 export function inUseWords(stored: VersionDocument, told: CalibrationInUse | null): { tone: Tone; text: string } | null {
   if (!stored.version) return { tone: "bad", text: "Cannot be used" };
   if (!stored.in_use) return null;
   if (stored.rehearsal) return { tone: "quiet", text: "Chosen for rehearsals" };
   const seen = told?.[stored.camera] === stored.id;
-  return seen ? { tone: "good", text: "In use" } : { tone: "busy", text: "From the robot's next start" };
+  return seen ? { tone: "good", text: "In use" } : { tone: "busy", text: "The robot does not see by it yet" };
 }
 
 /** Where it has the camera to the LiDAR. */

@@ -28,6 +28,7 @@ from navcore.transport.supervision import ProcessStatus, SupervisorReply, Superv
 
 DEADLINE_S = 20.0
 STATUS = SupervisorRequest(kind=SupervisorRequestKind.STATUS)
+LOAD_CALIBRATION = SupervisorRequest(kind=SupervisorRequestKind.LOAD_CALIBRATION)
 
 
 def sleep(robot: Robot) -> tuple[str, ...]:
@@ -36,7 +37,7 @@ def sleep(robot: Robot) -> tuple[str, ...]:
 
 
 TABLE = (
-    ProcessSpec(name="knowing", module="timeit", arguments=sleep, knows_site=True),
+    ProcessSpec(name="knowing", module="timeit", arguments=sleep, knows_site=True, knows_calibration=True),
     ProcessSpec(name="other", module="timeit", arguments=sleep),
     ProcessSpec(name="world", module="timeit", arguments=sleep, simulated_only=True),
 )
@@ -45,12 +46,14 @@ TABLE = (
 class Stand:
     """A supervisor that watches in a process's main thread, here in a thread of the test."""
 
-    def __init__(self, directory: Path, *, simulated: bool = True) -> None:
+    def __init__(
+        self, directory: Path, *, simulated: bool = True, calibration: Path | None = Path("calibration")
+    ) -> None:
         site = directory / "site.json"
         site.write_bytes(encode(demo_farm()))
         self.robot = Robot(
             bus=directory / "bus", site=site, vehicle="paper_a", can=CanSettings(), gnss="tcp://127.0.0.1:1",
-            simulation=SimulationParams() if simulated else None,
+            simulation=SimulationParams() if simulated else None, calibration=calibration,
         )  # fmt: skip
         self._ended = Event()
         self._ready = Event()
@@ -156,6 +159,22 @@ def test_a_farm_without_a_warehouse_has_no_place_for_the_robot(stand: Stand, dir
     (directory / "bare.json").write_bytes(encode(farm))
     assert "warehouse" in stand.load(str(directory / "bare.json")).reason
     assert "Name the file" in stand.load(None).reason
+
+
+def test_another_calibration_restarts_only_the_eyes_that_know_it(stand: Stand) -> None:
+    before = {process.name: process.pid for process in stand.status().processes}
+    assert stand.asker.ask(LOAD_CALIBRATION, SupervisorReply, 30_000).accepted
+    after = {process.name: process.pid for process in stand.status().processes}
+    assert after["knowing"] not in (before["knowing"], None)
+    assert (after["other"], after["world"]) == (before["other"], before["world"])
+
+
+def test_a_robot_without_stored_calibrations_keeps_its_eyes_open(directory: Path) -> None:
+    stand = Stand(directory, calibration=None)
+    before = stand.process("knowing").pid
+    assert stand.asker.ask(LOAD_CALIBRATION, SupervisorReply, 30_000).accepted
+    assert stand.process("knowing").pid == before
+    stand.close()
 
 
 def test_a_second_supervisor_on_the_same_sockets_is_refused(stand: Stand) -> None:
