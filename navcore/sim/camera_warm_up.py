@@ -8,7 +8,8 @@ from navcore.messages import SimTruth
 from navcore.sim.camera_labels import LabelParams
 from navcore.sim.camera_light import LightName, named_light
 from navcore.sim.camera_renderer import CameraRenderer, RenderParams
-from navcore.sim.orchard import OrchardParams, build_orchard
+from navcore.sim.orchard import OrchardParams
+from navcore.sim.planting import build_orchard
 
 
 def warm_up() -> None:

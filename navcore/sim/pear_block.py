@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 from navcore.geometry.se2 import SE2
 from navcore.maps.site_map import Datum, Lane, Plant, PlantKind, SiteMap, Warehouse, Zone, ZoneKind
 from navcore.sim.farm_parts import Block, headland
-from navcore.sim.orchard import Orchard, OrchardParams, PostKind, Season, Trellis, build_orchard
+from navcore.sim.orchard import Orchard, OrchardParams, PostKind, Season, Trellis
+from navcore.sim.planting import build_orchard
 from navcore.sim.terrain import Terrain, TerrainParams
 from navcore.sim.trellis.trellised import Trellised, TrellisParams, trellised
 

@@ -18,8 +18,9 @@ from navcore.sim.gnss_receiver import GnssReceiver, GnssReceiverParams
 from navcore.sim.imu import Imu, ImuParams
 from navcore.sim.lidar2d import WORKING, Lidar2d, Lidar2dFaults, Lidar2dParams
 from navcore.sim.map_error import MapErrorParams, perturb
-from navcore.sim.orchard import OrchardParams, build_orchard
+from navcore.sim.orchard import OrchardParams
 from navcore.sim.parking import parked
+from navcore.sim.planting import build_orchard
 from navcore.sim.terrain import SURFACE_TRAITS, Surface, Terrain, TerrainParams
 from navcore.sim.vehicle_dynamics import VehicleDynamics, VehicleDynamicsParams, WheelState
 from navcore.vehicle import VehicleParams

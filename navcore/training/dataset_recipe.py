@@ -12,7 +12,8 @@ from navcore.maps.site_map import Row, SiteMap
 from navcore.messages import SimTruth
 from navcore.sim.camera_light import LightName, LightParams, named_light
 from navcore.sim.layouts import LayoutParams, tuning_layout
-from navcore.sim.orchard import Orchard, OrchardParams, PostKind, Season, Trellis, build_orchard
+from navcore.sim.orchard import Orchard, OrchardParams, PostKind, Season, Trellis
+from navcore.sim.planting import build_orchard
 
 LAYOUTS = LayoutParams(
     rows=(3, 6), row_length=(30.0, 75.0), row_width=(2.2, 4.2), post_spacing=(3.5, 8.0), plant_spacing=(0.9, 2.6)

@@ -18,7 +18,8 @@ from navcore.perception.detector import Told
 from navcore.perception.row_lines import RowPrior
 from navcore.perception.row_perception import RowMethod, RowPerception, RowPerceptionParams
 from navcore.sim.layouts import scoring_layout
-from navcore.sim.orchard import OrchardParams, build_orchard
+from navcore.sim.orchard import OrchardParams
+from navcore.sim.planting import build_orchard
 from navcore.sim.projected_objects import ProjectedObjects, ProjectedObjectsParams
 
 # Farms of this bench: no mission is scored on them.

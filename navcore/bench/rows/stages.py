@@ -20,7 +20,8 @@ from navcore.perception.row_perception import RowMethod, RowPerception, RowPerce
 from navcore.sim.camera_light import LightName, named_light
 from navcore.sim.camera_renderer import CameraRenderer
 from navcore.sim.layouts import scoring_layout
-from navcore.sim.orchard import OrchardParams, Season, build_orchard
+from navcore.sim.orchard import OrchardParams, Season
+from navcore.sim.planting import build_orchard
 
 STAGES = (Season.BUDDING, Season.GROWING, Season.MATURING)
 LIGHTS = (LightName.NOON, LightName.OVERCAST, LightName.BACKLIT)

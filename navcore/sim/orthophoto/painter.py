@@ -13,9 +13,10 @@ from rasterio import Affine
 from shapely import MultiPoint
 
 from navcore.maps.site_map import Point, SiteMap, ZoneKind
-from navcore.sim.orchard import Orchard, OrchardParams, build_orchard
+from navcore.sim.orchard import Orchard, OrchardParams
 from navcore.sim.orthophoto.canvas import Canvas, Floats, bounding_box, softened
 from navcore.sim.orthophoto.params import OrthophotoParams
+from navcore.sim.planting import build_orchard
 from navcore.sim.shed import Shed
 
 # Colours, red green blue, 0 to 255.

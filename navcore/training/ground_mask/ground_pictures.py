@@ -16,7 +16,7 @@ from navcore.perception.published_fusion.ground_segmenter import SIDE_PX, squeez
 from navcore.sim.camera_light import LightName, LightParams, named_light
 from navcore.sim.camera_renderer import CameraRenderer, RenderedFrame, RenderParams, Scene
 from navcore.sim.corridor_ground import Corridor, segment_corridor
-from navcore.sim.orchard import build_orchard
+from navcore.sim.planting import build_orchard
 from navcore.sim.young_orchard import LENGTH_M, Segment, YoungSegment, tuning_segment
 
 Bytes = NDArray[np.uint8]

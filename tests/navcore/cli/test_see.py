@@ -18,7 +18,8 @@ from navcore.messages import SimTruth
 from navcore.sim.camera_light import LightName, named_light
 from navcore.sim.camera_renderer import CameraRenderer
 from navcore.sim.layouts import tuning_layout
-from navcore.sim.orchard import OrchardParams, Season, Trellis, build_orchard
+from navcore.sim.orchard import OrchardParams, Season, Trellis
+from navcore.sim.planting import build_orchard
 
 runner = CliRunner()
 OFFSET_M = 0.2

@@ -18,7 +18,8 @@ from navcore.runtime.simulated_eye import robot_cameras
 from navcore.sim.camera_light import LightName, named_light
 from navcore.sim.camera_renderer import CameraRenderer
 from navcore.sim.layouts import tuning_layout
-from navcore.sim.orchard import OrchardParams, build_orchard
+from navcore.sim.orchard import OrchardParams
+from navcore.sim.planting import build_orchard
 from navcore.topics import CAMERA_VIEW
 from navcore.transport.codec import decode
 from navcore.transport.endpoints import Endpoints

@@ -17,7 +17,8 @@ from navcore.messages import ObjectKind, SimTruth
 from navcore.sim.camera_labels import LabelParams, RenderedObject
 from navcore.sim.camera_light import LightName, LightParams, named_light
 from navcore.sim.camera_renderer import CameraRenderer, RenderedFrame, RenderParams, Scene
-from navcore.sim.orchard import Orchard, OrchardParams, Season, Trellis, build_orchard
+from navcore.sim.orchard import Orchard, OrchardParams, Season, Trellis
+from navcore.sim.planting import build_orchard
 from navcore.sim.render.ground import GroundTint
 
 DATUM = Datum(lat_deg=41.0, lon_deg=-5.0, height_m=700.0)

@@ -18,7 +18,8 @@ from navcore.sim.camera_light import LightName, named_light
 from navcore.sim.camera_renderer import CameraRenderer, RenderedFrame, RenderParams
 from navcore.sim.clutter import ClutterParams
 from navcore.sim.lidar2d import FLAWLESS, Lidar2d
-from navcore.sim.orchard import Orchard, OrchardParams, Season, Trellis, build_orchard
+from navcore.sim.orchard import Orchard, OrchardParams, Season, Trellis
+from navcore.sim.planting import build_orchard
 
 SITE = SiteMap(
     name="s", datum=Datum(lat_deg=41.0, lon_deg=-5.0, height_m=700.0),

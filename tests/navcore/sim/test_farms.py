@@ -14,9 +14,10 @@ from navcore.geometry.geodesy import EnuFrame
 from navcore.maps.site_map import SiteMap, ZoneKind
 from navcore.sim.demo_farm import demo_farm
 from navcore.sim.layouts import scoring_layout, tuning_layout
-from navcore.sim.orchard import OrchardParams, build_orchard
+from navcore.sim.orchard import OrchardParams
 from navcore.sim.orthophoto.painter import write_orthophoto
 from navcore.sim.orthophoto.params import OrthophotoParams
+from navcore.sim.planting import build_orchard
 
 FARMS = [demo_farm(), *map(scoring_layout, range(6)), *map(tuning_layout, range(3))]
 

@@ -17,7 +17,8 @@ from navcore.messages import FixQuality
 from navcore.sim.canopy import Canopy, CanopyParams
 from navcore.sim.gnss_receiver import AntennaState, GnssReceiver, GnssReceiverParams
 from navcore.sim.nmea_text import ReceiverEpoch
-from navcore.sim.orchard import OrchardParams, Season, Trellis, build_orchard
+from navcore.sim.orchard import OrchardParams, Season, Trellis
+from navcore.sim.planting import build_orchard
 
 PERIOD_NS = 200_000_000
 

@@ -18,7 +18,8 @@ from navcore.sim.camera_labels import LabelParams
 from navcore.sim.camera_light import LightName, named_light
 from navcore.sim.camera_renderer import CameraRenderer, RenderParams
 from navcore.sim.lidar2d import FLAWLESS, WORKING, Lidar2d, Lidar2dFaults, Lidar2dParams, SimScan
-from navcore.sim.orchard import Orchard, OrchardParams, Season, Trellis, build_orchard
+from navcore.sim.orchard import Orchard, OrchardParams, Season, Trellis
+from navcore.sim.planting import build_orchard
 from navcore.sim.trunk_sections import trunk_sections
 
 Floats = NDArray[np.float64]

@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 
 from navcore.errors import InputError
 from navcore.maps.site_map import Datum, Lane, Plant, PlantKind, Row, SiteMap, Warehouse
-from navcore.sim.orchard import Floats, Ints, Orchard, OrchardParams, Season, Standing, Trellis, build_orchard
+from navcore.sim.orchard import Floats, Ints, Orchard, OrchardParams, Season, Standing, Trellis
+from navcore.sim.planting import build_orchard
 
 DATUM = Datum(lat_deg=41.0, lon_deg=-5.0, height_m=700.0)
 

@@ -17,7 +17,8 @@ from navcore.maps.site_map import SiteMap
 from navcore.maps.survey import vines_from_csv
 from navcore.messages import SimTruth
 from navcore.sim.lidar2d import Lidar2d, Lidar2dParams, SimScan
-from navcore.sim.orchard import Orchard, OrchardParams, PostKind, Season, Trellis, build_orchard
+from navcore.sim.orchard import Orchard, OrchardParams, PostKind, Season, Trellis
+from navcore.sim.planting import build_orchard
 
 Floats = NDArray[np.float64]
 STEP_NS = 5_000_000

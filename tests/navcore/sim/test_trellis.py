@@ -14,8 +14,9 @@ from navcore.geometry.lidar_mount import LidarMount
 from navcore.geometry.se3 import SE3
 from navcore.maps.site_map import SiteMap
 from navcore.sim.lidar3d import C16, Lidar3d
-from navcore.sim.orchard import OrchardParams, Season, build_orchard
+from navcore.sim.orchard import OrchardParams, Season
 from navcore.sim.pear_block import BlockSize, PearBlock, scoring_block, tuning_block
+from navcore.sim.planting import build_orchard
 from navcore.sim.rays.land_scene import LandScene, Part
 from navcore.sim.terrain import Terrain, TerrainParams
 from navcore.sim.trellis.frame import FrameParams

@@ -14,7 +14,7 @@ from navcore.planning.mission_planner import plan_mission
 from navcore.planning.row_mission import mission_for_row
 from navcore.sim.lidar2d import Lidar2dParams
 from navcore.sim.map_error import NO_MAP_ERROR
-from navcore.sim.orchard import build_orchard
+from navcore.sim.planting import build_orchard
 from navcore.sim.trunk_sections import trunk_sections
 from navcore.sim.world import World, WorldParams
 from navcore.sim.young_orchard import (

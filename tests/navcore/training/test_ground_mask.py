@@ -17,7 +17,7 @@ from navcore.perception.published_fusion.ground_segmenter import SIDE_PX, Ground
 from navcore.sim.camera_light import LightName, named_light
 from navcore.sim.camera_renderer import CameraRenderer, RenderedFrame, RenderParams
 from navcore.sim.corridor_ground import segment_corridor
-from navcore.sim.orchard import build_orchard
+from navcore.sim.planting import build_orchard
 from navcore.sim.young_orchard import LENGTH_M, Segment, YoungSegment, tuning_segment
 from navcore.training.ground_mask.ground_export import export_ground
 from navcore.training.ground_mask.ground_net import GroundNet

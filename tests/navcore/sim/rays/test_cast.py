@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 
 from navcore.maps.site_map import Datum, Row, SiteMap, Warehouse
 from navcore.sim.clutter import ClutterParams
-from navcore.sim.orchard import OrchardParams, Trellis, build_orchard
+from navcore.sim.orchard import OrchardParams, Trellis
+from navcore.sim.planting import build_orchard
 from navcore.sim.rays.cast import GROUND, NOTHING, cast, meet
 from navcore.sim.rays.scene import RayScene, ray_scene
 from navcore.sim.rays.shapes import meet_beam, meet_card, meet_panel, meet_tube

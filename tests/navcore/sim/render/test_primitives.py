@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from navcore.maps.site_map import Datum, Row, SiteMap
-from navcore.sim.orchard import OrchardParams, Season, Trellis, build_orchard
+from navcore.sim.orchard import OrchardParams, Season, Trellis
+from navcore.sim.planting import build_orchard
 from navcore.sim.render.canopy import leaf_cards
 from navcore.sim.render.planting import planted
 from navcore.sim.render.primitives import Chunks, into_chunks

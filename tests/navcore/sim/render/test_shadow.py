@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from navcore.maps.site_map import Datum, Plant, PlantKind, SiteMap
-from navcore.sim.orchard import OrchardParams, build_orchard
+from navcore.sim.orchard import OrchardParams
+from navcore.sim.planting import build_orchard
 from navcore.sim.render.canopy import leaf_cards
 from navcore.sim.render.planting import planted
 from navcore.sim.render.primitives import into_chunks
