@@ -87,9 +87,10 @@ def _guessing_sight() -> Sight:
     from navcore.cli.see_record import see_record
     from navcore.perception.onnx_detector import OnnxDetector
     from navcore.perception.row_perception import RowPerceptionParams
+    from navcore.perception.sliced_detector import SlicedDetector
     from navcore.perception.unknown_camera import UnknownCameraParams, see_with_unknown_camera
 
-    detector = OnnxDetector()
+    detector = SlicedDetector(OnnxDetector())
 
     def sight(frame: Frame) -> dict[str, Any]:
         guess = see_with_unknown_camera(frame.image, detector, UnknownCameraParams(), RowPerceptionParams())
