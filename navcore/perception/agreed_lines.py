@@ -21,7 +21,9 @@ def agreed_lines(best: CameraView, views: Sequence[CameraView], weights: Sequenc
     at = (bottom, (bottom + far) / 2)
     left = _agreed(best.left, [v.left for v in views], weights, at)
     right = _agreed(best.right, [v.right for v in views], weights, at)
-    return replace(best, left=left, right=right, centre=_agreed(best.centre, [v.centre for v in views], weights, at))
+    centre = _agreed(best.centre, [v.centre for v in views], weights, at)
+    meet = _meet(left, right)
+    return replace(best, left=_below(left, meet), right=_below(right, meet), centre=_below(centre, meet))
 
 
 def _agreed(
@@ -33,6 +35,18 @@ def _agreed(
     low, high = (_median([_u(line, v) for line, _ in usable], heavy) for v in at)
     agreed = ImageLine(u0=low, v0=at[0], u1=high, v1=at[1])
     return ImageLine(u0=_u(agreed, best.v0), v0=best.v0, u1=_u(agreed, best.v1), v1=best.v1)
+
+
+def _meet(left: ImageLine, right: ImageLine) -> float:
+    """The row of pixels in which they meet; above the picture where they do not."""
+    low, high = _u(right, left.v0) - left.u0, _u(right, left.v1) - left.u1
+    return left.v0 + (left.v1 - left.v0) * low / (low - high) if low > high else -1.0
+
+
+def _below(line: ImageLine, v: float) -> ImageLine:
+    """What of it lies below where the lines meet."""
+    end = max(line.v1, v)
+    return replace(line, u1=_u(line, end), v1=end)
 
 
 def _u(line: ImageLine, v: float) -> float:

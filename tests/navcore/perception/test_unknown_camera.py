@@ -99,3 +99,14 @@ def test_a_camera_without_lines_has_no_say() -> None:
     best = view_of(0.0)
     agreed = agreed_lines(best, [best, replace(view_of(0.0), left=None)], [0.1, 0.9])
     assert agreed.left == best.left
+
+
+def test_lines_end_where_they_meet() -> None:
+    steep = view_of(0.0)
+    assert steep.left is not None
+    crossing = replace(steep, left=replace(steep.left, u1=steep.left.u1 + 60.0))
+    agreed = agreed_lines(crossing, [crossing], [1.0])
+    assert agreed.left is not None
+    assert agreed.right is not None
+    assert agreed.left.v1 > steep.left.v1
+    assert (agreed.left.u1, agreed.left.v1) == pytest.approx((agreed.right.u1, agreed.right.v1))
