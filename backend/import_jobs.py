@@ -6,7 +6,6 @@ import json
 import os
 import re
 import subprocess
-import sys
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
@@ -20,6 +19,7 @@ from backend.ids import new_id
 from backend.orthophoto_import import BROKEN
 from backend.schemas import Job, JobState
 from backend.settings import Settings
+from backend.tied import tied
 from navcore.errors import InputError, OrthophotoError, RowpilotError
 
 MOST_RUNNING = 2
@@ -144,16 +144,14 @@ class ImportJobs:
 
 def command(source: Path, target: Path, settings: Settings) -> list[str]:
     """Of the import process."""
-    return [
-        sys.executable,
-        "-m",
+    return tied(
         "backend.orthophoto_import",
         str(source),
         str(target),
         f"--decoded-bytes={settings.decoded_limit_bytes}",
         f"--memory-bytes={settings.import_memory_bytes}",
         f"--cpu-s={settings.import_cpu_s}",
-    ]
+    )
 
 
 ORTHOPHOTO = ImportKind(

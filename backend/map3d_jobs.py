@@ -5,14 +5,15 @@ from __future__ import annotations
 import json
 import logging
 import subprocess
-import sys
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from pathlib import Path
-from threading import Lock, Thread
+from threading import Lock
 
 from backend.errors import ConflictError, NotFoundError
 from backend.map3d_store import Map3dStore
 from backend.schemas import JobState, Map3dJob
+from backend.tied import tied
 
 log = logging.getLogger("rowpilot.station")
 BAD_INPUT = 2
@@ -32,6 +33,8 @@ class Map3dJobs:
         # Site and run.
         self._running: tuple[str, str] | None = None
         self._stopped = False
+        # Processes end with the thread that starts them: with this one, which lives as long as the station.
+        self._one_thread = ThreadPoolExecutor(1, "map3d")
 
     def get(self, run_id: str) -> Map3dJob | None:
         """The run's job since the station began."""
@@ -43,13 +46,13 @@ class Map3dJobs:
         with self._lock:
             if self._running is not None:
                 raise ConflictError(BUSY)
-            self._running, self._stopped = (site_id, run_id), False
-            job = self._jobs[run_id] = Map3dJob(state=JobState.RUNNING, progress=0.0, message="Reading the run")
-            self._process = subprocess.Popen(
-                command(run_log, self._store.folder(site_id, run_id)), stdin=subprocess.DEVNULL,
+            process = self._one_thread.submit(
+                subprocess.Popen, command(run_log, self._store.folder(site_id, run_id)), stdin=subprocess.DEVNULL,
                 stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
-            )  # fmt: skip
-        Thread(target=self._follow, args=(run_id, self._process), name="map3d", daemon=True).start()
+            ).result()  # fmt: skip
+            self._process, self._running, self._stopped = process, (site_id, run_id), False
+            job = self._jobs[run_id] = Map3dJob(state=JobState.RUNNING, progress=0.0, message="Reading the run")
+        self._one_thread.submit(self._follow, run_id, process)
         return job
 
     def stop(self, run_id: str) -> None:
@@ -117,4 +120,4 @@ class Map3dJobs:
 def command(run_log: Path, folder: Path) -> list[str]:
     """Of the mapping process."""
     options = ("--gently", "--progress-json", "--json")
-    return [sys.executable, "-m", "navcore.cli", "map", str(run_log), "--out", str(folder), *options]
+    return tied("navcore.cli", "map", str(run_log), "--out", str(folder), *options)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import subprocess
-import sys
 from pathlib import Path
 from threading import Lock
 
@@ -18,6 +17,7 @@ from backend.map3d_ground import read_ground
 from backend.map3d_store import NONE, NOT_ON_EARTH, Map3dStore, damaged
 from backend.schemas import HeightColour, Map3dPicture
 from backend.settings import Settings
+from backend.tied import tied
 from navcore.mapping.trellis.ground_model import GroundModel
 
 LONGEST_S = 600
@@ -63,10 +63,10 @@ class Map3dPictures:
         return read_ground(self._store.folder(site_id, run_id) / GROUND)
 
     def _draw(self, folder: Path) -> None:
-        command = [
-            sys.executable, "-m", "backend.map3d_drawing", f"--memory-bytes={self._settings.map_memory_bytes}",
+        command = tied(
+            "backend.map3d_drawing", f"--memory-bytes={self._settings.map_memory_bytes}",
             f"--cpu-s={self._settings.import_cpu_s}", "--", str(folder),
-        ]  # fmt: skip
+        )  # fmt: skip
         try:
             done = subprocess.run(
                 command, stdin=subprocess.DEVNULL, capture_output=True, timeout=LONGEST_S, check=False

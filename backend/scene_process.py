@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import subprocess
-import sys
 
 from backend.settings import Settings
+from backend.tied import tied
 from backend.worker import Worker
 
 PAUSE_S = 3.0
 PATIENCE_S = 3.0
-TIED = "navcore.runtime.tied"  # makes the child end with us, however we end
 
 
 class SceneProcess(Worker):
@@ -39,16 +38,13 @@ class SceneProcess(Worker):
 
 def command(settings: Settings) -> list[str]:
     """Of the 3D view."""
-    return [
-        sys.executable,
-        "-m",
-        TIED,
+    return tied(
         "backend.scene",
         f"--bus={settings.bus_dir}",
         f"--port={settings.scene_port}",
         f"--data={settings.data_dir}",
         f"--vehicle={settings.vehicle}",
-    ]
+    )
 
 
 def end(child: subprocess.Popen[bytes]) -> None:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import subprocess
-import sys
 import time
 from threading import Lock
 
 from backend.settings import Settings
+from backend.tied import tied
 from backend.worker import Worker
 
 IDLE_S = 30.0  # nobody asked for so long: the page is closed
@@ -16,7 +16,6 @@ LONGEST_PAUSE_S = 10.0
 CALM_S = 10.0
 PATIENCE_S = 4.0
 POLL_S = 0.1
-TIED = "navcore.runtime.tied"  # makes the child end with us, however we end
 
 
 class CalibratorKeeper(Worker):
@@ -79,13 +78,10 @@ class CalibratorKeeper(Worker):
 
 def command(settings: Settings) -> list[str]:
     """Of the calibrating process."""
-    return [
-        sys.executable,
-        "-m",
-        TIED,
+    return tied(
         "backend.calibrator.process",
         f"--bus={settings.bus_dir}",
         f"--session={settings.calibration_session_dir}",
         f"--versions={settings.calibration_dir}",
         f"--rehearsals={settings.rehearsal_dir}",
-    ]
+    )
