@@ -67,6 +67,9 @@ def bench_detector(
     variants: Annotated[
         Path | None, typer.Option(metavar="FOLDER", help="Weights of published detectors: NAME.pt or NAME.onnx.")
     ] = None,
+    photographs: Annotated[
+        Path | None, typer.Option(metavar="FOLDER", help="Photographs and labels.json: see those, too.")
+    ] = None,
     processes: Annotated[int, typer.Option(min=1, max=64, help="Processes that render.")] = 1,
 ) -> None:
     """Our detector and the published ones on the same rendered frames of unseen farms, 3 stages x 3 lights."""
@@ -75,18 +78,20 @@ def bench_detector(
 
     from navcore.bench.detector.detector import QUICK, DetectorBenchParams, run_bench
     from navcore.bench.detector.figures import detector_figures
+    from navcore.bench.detector.photographs import photograph_figures
     from navcore.bench.provenance import commit, machine
     from navcore.errors import RowpilotError
 
     params = QUICK if quick else DetectorBenchParams()
     params = replace(params, variants=variants, frames=replace(params.frames, processes=processes))
     try:
+        real = photograph_figures(photographs) if photographs else ()
         with tempfile.TemporaryDirectory(prefix="rowpilot-detector-") as folder:
             result = run_bench(params, Path(folder), lambda line: typer.echo(line, err=True))
     except RowpilotError as error:
         typer.echo(str(error), err=True)
         raise typer.Exit(BAD_INPUT) from None
-    figures, made = detector_figures(result), (commit(), machine())
+    figures, made = (*detector_figures(result), *real), (commit(), machine())
     typer.echo(_report(figures, *made) if as_json else _lines(figures, *made))
 
 
