@@ -9,6 +9,7 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
+from backend.exit_status import UNREADABLE
 from backend.run_track import read_track
 from navcore.disk import write_durably
 from navcore.errors import InputError
@@ -17,8 +18,6 @@ from navcore.promptness import stand_back
 from navcore.recording.export import RunExport
 from navcore.recording.reader import read_farm
 from navcore.transport.codec import encode
-
-UNREADABLE = 3
 
 
 def main() -> int:
