@@ -5,6 +5,8 @@ BIN := $(VENV)/bin
 STAMP := .make
 # Compiling, checking and the browser's installation wait for different things: side by side, with a line each.
 MAKEFLAGS += --jobs=3
+# Half a dozen processes read the same modules at every start: they are compiled once and kept, whatever the shell says.
+unexport PYTHONDONTWRITEBYTECODE
 export PATH := $(CURDIR)/$(VENV)/bin:$(PATH)
 
 .PHONY: run test check check-python check-frontend format setup compiled frontend browser clean
