@@ -59,15 +59,10 @@ def _settings(port: int | None, data: Path | None, *, simulated: bool) -> Settin
 
 def _run(settings: Settings, can: str | None, gnss: str | None, config: Path | None, simulation: str) -> None:
     from navcore.cli.first_farm import beginning_farm
-    from navcore.config import load_config
-    from navcore.perception.detector_choice import new_detector
     from navcore.runtime.supervisor import Supervisor
 
     if config is not None:
-        # Each process reads it for itself: what is wrong with it is said before any begins.
-        detector = load_config(config).detector
-        if detector.weights:
-            new_detector(detector)
+        _check(config)
     settings.data_dir.mkdir(parents=True, exist_ok=True)
     farm = beginning_farm(settings)
     robot = (
@@ -85,6 +80,16 @@ def _run(settings: Settings, can: str | None, gnss: str | None, config: Path | N
             supervisor.watch()
     finally:
         supervisor.close()
+
+
+def _check(config: Path) -> None:
+    """Each process reads the settings for itself: what is wrong with them is said before any begins."""
+    from navcore.config import load_config
+    from navcore.perception.detector_choice import new_detector
+
+    detector = load_config(config).detector
+    if detector.weights:
+        new_detector(detector)
 
 
 def _environment(settings: Settings) -> dict[str, str]:
