@@ -79,15 +79,18 @@ def test_one_address_is_printed_and_nothing_outlives_the_command(
 
 
 def test_a_real_robot_needs_a_receiver(folder: Path) -> None:
-    result = CliRunner().invoke(app, ["run", "--can", "can0", "--data", str(folder)])
+    result = CliRunner().invoke(app, ["run", "--can", "can0", "--data", str(folder / "data")])
     assert result.exit_code == 1
     assert "needs a receiver" in result.output
+    assert not (folder / "data").exists()
 
 
 def test_settings_of_the_simulation_that_are_none_are_refused(folder: Path) -> None:
-    result = CliRunner().invoke(app, ["run", "--data", str(folder), "--simulation", '{"season": "monsoon"}'])
+    arguments = ["run", "--data", str(folder / "data"), "--simulation", '{"season": "monsoon"}']
+    result = CliRunner().invoke(app, arguments)
     assert result.exit_code == 1
     assert "simulation" in result.output
+    assert not (folder / "data").exists()
 
 
 @pytest.mark.parametrize("content", [None, "<gpx>", '[front_camera]\nsauce = "/dev/video0"\n'])
