@@ -3,6 +3,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 STAMP := .make
+WARM_UPS := navcore.sim.camera_warm_up navcore.runtime.cloud_warm_up navcore.runtime.scan_warm_up
 # Compiling, checking and the browser's installation wait for different things: side by side, with a line each.
 MAKEFLAGS += --jobs=3
 # Half a dozen processes read the same modules at every start: they are compiled once and kept, whatever the shell says.
@@ -47,10 +48,12 @@ $(STAMP)/venv: pyproject.toml
 	@touch $@
 
 # Inner loops of the simulated sensors, of perception and of the 3D map: no first picture or scan waits for a compiler.
-$(STAMP)/compiled: $(STAMP)/venv $(wildcard navcore/sim/render/*.py navcore/sim/rays/*.py $(foreach room,perception perception/* localization/ndt maps/ndt,navcore/$(room)/*kernels.py))
-	$(BIN)/python -m navcore.sim.camera_warm_up
-	$(BIN)/python -m navcore.runtime.scan_warm_up
-	$(BIN)/python -m navcore.runtime.cloud_warm_up
+$(STAMP)/compiled: $(WARM_UPS:%=$(STAMP)/%)
+	@touch $@
+
+# Each keeps one core busy: side by side.
+$(WARM_UPS:%=$(STAMP)/%): $(STAMP)/venv $(wildcard navcore/sim/render/*.py navcore/sim/rays/*.py $(foreach room,perception perception/* localization/ndt maps/ndt,navcore/$(room)/*kernels.py))
+	$(BIN)/python -m $(@F)
 	@touch $@
 
 # A machine without a recent Node gets it from PyPI, into the virtual environment.
