@@ -13,7 +13,6 @@ from backend.exit_status import UNREADABLE
 from backend.run_track import read_track
 from navcore.disk import write_durably
 from navcore.errors import InputError
-from navcore.mapping.trunks_seen import trunks_seen
 from navcore.promptness import stand_back
 from navcore.recording.export import RunExport
 from navcore.recording.reader import read_farm
@@ -38,6 +37,9 @@ def render(log: Path, form: str) -> str:
     if form == "track":
         return read_track(log).model_dump_json()
     if form == "trunks":
+        # Here, because it loads scipy: whoever waits for a table of the run does not wait for that.
+        from navcore.mapping.trunks_seen import trunks_seen
+
         return encode(trunks_seen(log, read_farm(log).rows)).decode()
     export = RunExport(log)
     forms = {"csv": export.csv, "geojson": export.geojson, "gpx": export.gpx}

@@ -50,7 +50,7 @@ def park_on_map(farm_map: NdtMap) -> Callable[[], Drive]:
 
 @dataclass(frozen=True, slots=True)
 class Blinded:
-    """A whole mission whose camera goes blind in the row; in which ticks the row is driven first, and then the map."""
+    """A whole mission whose camera goes blind in the row; in which ticks the row took over, and then the map."""
 
     drive: Drive
     in_row: int
