@@ -8,7 +8,7 @@ from pathlib import Path
 from threading import Lock
 
 from backend.errors import StationError
-from backend.run_export import UNREADABLE
+from backend.exit_status import UNREADABLE
 from backend.schemas import LogFormat
 from navcore.errors import LogError
 

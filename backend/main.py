@@ -9,7 +9,7 @@ from importlib.metadata import version
 
 from fastapi import FastAPI
 
-from backend import errors, permissions
+from backend import error_answers, permissions
 from backend.body_limits import BodyLimit
 from backend.gate import Gate
 from backend.headers import SecurityHeaders
@@ -72,7 +72,7 @@ def bare_app() -> FastAPI:
         openapi_url=None,
         separate_input_output_schemas=False,
     )
-    errors.install(app)
+    error_answers.install(app)
     for room in ROOMS:
         app.router.routes.extend(room.router.routes)  # flat, so that every route can be seen and checked
     permissions.check(app.router.routes)

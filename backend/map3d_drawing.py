@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from backend.confinement import WAITED_FOR, leave_network, limit_resources
+from backend.exit_status import UNREADABLE
 from backend.height_colours import height_colours
 from backend.map3d_files import CLOUD, FACTS, GROUND, NDT, PICTURE
 from backend.map3d_ground import ground_bytes
@@ -29,7 +30,6 @@ from navcore.maps.cloud_files.cloud_file import read_cloud
 from navcore.maps.ndt.ndt_file import ndt_datum_of
 from navcore.promptness import give_way
 
-UNREADABLE = 3
 # What lies lower is ground, m: it lets the orthophoto through.
 LOW = 0.2
 GROUND_ALPHA, ALPHA = 90, 235

@@ -5,10 +5,12 @@ from __future__ import annotations
 import io
 from dataclasses import asdict
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from navcore.mapping.trellis.ground_model import GroundModel
+if TYPE_CHECKING:
+    from navcore.mapping.trellis.ground_model import GroundModel
 
 
 def ground_bytes(ground: GroundModel) -> bytes:
@@ -20,6 +22,9 @@ def ground_bytes(ground: GroundModel) -> bytes:
 
 def read_ground(path: Path) -> GroundModel:
     """The ground of a file that `ground_bytes` made."""
+    # Here, because what makes maps loads scipy, and few farms have one: the station is up without it.
+    from navcore.mapping.trellis.ground_model import GroundModel
+
     with np.load(path, allow_pickle=False) as file:
         return GroundModel(
             x=float(file["x"]), y=float(file["y"]), cell=float(file["cell"]), heights=file["heights"],

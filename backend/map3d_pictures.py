@@ -6,19 +6,22 @@ import json
 import subprocess
 from pathlib import Path
 from threading import Lock
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from backend.errors import ConflictError, NotFoundError, StationError
+from backend.exit_status import UNREADABLE
 from backend.height_colours import HIGHEST, height_colours
-from backend.map3d_drawing import UNREADABLE
 from backend.map3d_files import FACTS, GROUND, PICTURE, REPORT
 from backend.map3d_ground import read_ground
 from backend.map3d_store import NONE, NOT_ON_EARTH, Map3dStore, damaged
 from backend.schemas import HeightColour, Map3dPicture
 from backend.settings import Settings
 from backend.tied import tied
-from navcore.mapping.trellis.ground_model import GroundModel
+
+if TYPE_CHECKING:
+    from navcore.mapping.trellis.ground_model import GroundModel
 
 LONGEST_S = 600
 TOO_LONG = "it needs too much time to be drawn."

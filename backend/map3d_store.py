@@ -11,7 +11,6 @@ from backend.errors import ConflictError, NotFoundError
 from backend.map3d_files import FILES, KEYFRAMES, NDT, REPORT
 from backend.schemas import Map3dDocument, Map3dFile
 from navcore.errors import CloudError, NdtMapError
-from navcore.maps.ndt.ndt_file import ndt_datum_of
 from navcore.maps.site_map import Datum
 
 NONE = "There is no such 3D map any more. Load the page again."
@@ -51,6 +50,9 @@ class Map3dStore:
 
         Raises NotFoundError, ConflictError for a map without a place on the Earth, CloudError for a damaged one.
         """
+        # Here, because it loads a compiler: a station whose farms have no 3D map is up without it.
+        from navcore.maps.ndt.ndt_file import ndt_datum_of
+
         made = self.get(site_id, run_id)
         if made is None:
             raise NotFoundError(NONE)

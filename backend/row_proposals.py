@@ -7,15 +7,17 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 from threading import Lock
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from backend.import_jobs import ImportKind
 from backend.settings import Settings
 from backend.sites import SiteStore
 from navcore.errors import CloudError
-from navcore.mapping.row_map.row_map import RowMap, fitted
 from navcore.maps.site_map import Datum
 from navcore.transport.codec import decode
+
+if TYPE_CHECKING:
+    from navcore.mapping.row_map.row_map import RowMap
 
 # Proposals are small, but a station runs for months.
 MOST_KEPT = 50
@@ -45,6 +47,9 @@ class RowProposals:
 
     def put(self, site_id: str, file_name: str, found: RowMap) -> None:
         """In the place of the one before it. Raises NotFoundError if the site is gone."""
+        # Here and below, because what finds rows loads scipy and shapely: the station is up without them.
+        from navcore.mapping.row_map.row_map import fitted
+
         fitting = fitted(self._sites.get(site_id).site, found)
         with self._lock:
             self._found.pop(site_id, None)
@@ -56,6 +61,8 @@ class RowProposals:
         """What to do with what the process found."""
 
         def finish(_: Path, found: dict[str, Any]) -> str:
+            from navcore.mapping.row_map.row_map import RowMap
+
             self.put(site_id, file_name, decode(RowMap, json.dumps(found).encode()))
             return site_id
 

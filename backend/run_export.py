@@ -9,16 +9,14 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
+from backend.exit_status import UNREADABLE
 from backend.run_track import read_track
 from navcore.disk import write_durably
 from navcore.errors import InputError
-from navcore.mapping.trunks_seen import trunks_seen
 from navcore.promptness import stand_back
 from navcore.recording.export import RunExport
 from navcore.recording.reader import read_farm
 from navcore.transport.codec import encode
-
-UNREADABLE = 3
 
 
 def main() -> int:
@@ -39,6 +37,9 @@ def render(log: Path, form: str) -> str:
     if form == "track":
         return read_track(log).model_dump_json()
     if form == "trunks":
+        # Here, because it loads scipy: whoever waits for a table of the run does not wait for that.
+        from navcore.mapping.trunks_seen import trunks_seen
+
         return encode(trunks_seen(log, read_farm(log).rows)).decode()
     export = RunExport(log)
     forms = {"csv": export.csv, "geojson": export.geojson, "gpx": export.gpx}

@@ -11,7 +11,6 @@ from viser import SceneApi
 
 from backend.height_colours import height_colours
 from navcore.errors import InputError
-from navcore.maps.ndt.ndt_file import read_ndt_map
 
 Floats = NDArray[np.float32]
 MOST = 150_000  # a larger map is shown thinned, so that a browser can still turn it
@@ -31,6 +30,11 @@ class Cells:
 
 def read_cells(path: Path) -> Cells | None:
     """Of a map's file, None where there is no sound one."""
+    if not path.is_file():
+        return None
+    # Here, because it loads a compiler: the view of a farm without a 3D map is there without it.
+    from navcore.maps.ndt.ndt_file import read_ndt_map
+
     try:
         grid = read_ndt_map(path).grids[-1]
     except InputError:

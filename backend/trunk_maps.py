@@ -15,7 +15,6 @@ from backend.models import TrunkMap as TrunkMapRow
 from backend.schemas import TrunksMapped
 from backend.shown_trunks import shown_file
 from navcore.disk import write_durably
-from navcore.mapping.merged_runs import merged
 from navcore.maps.site_map import SiteMap
 from navcore.maps.trunk_map import TrunkMap, trunks_of_row
 from navcore.transport.codec import decode, encode
@@ -38,6 +37,9 @@ class TrunkMapStore:
 
     def add(self, site_id: str, run_id: str, seen: TrunkMap) -> TrunksMapped:
         """Take in what a run saw. Raises NotFoundError, and SiteError where the run fits in two ways."""
+        # Here, because it loads scipy's trees, which a station needs at the end of a run and not for its start.
+        from navcore.mapping.merged_runs import merged
+
         with self._database.write() as session:
             documents.find(session, Site, site_id)
             row = session.get(TrunkMapRow, site_id)

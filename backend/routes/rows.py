@@ -18,7 +18,7 @@ from backend.row_proposals import rows_in_a_map
 from backend.schemas import JobStarted, RowProposal
 from backend.uploads import lent, receive
 from navcore.errors import CloudError
-from navcore.maps.cloud_files.cloud_file import CLOUD_ENDINGS
+from navcore.maps.cloud_files.cloud_endings import CLOUD_ENDINGS
 
 router = APIRouter(prefix="/api/sites/{site_id}/found-rows", tags=["rows"], responses=ERRORS)
 FileName = Annotated[str, Query(max_length=200, description="Name of the file; its ending tells its form")]

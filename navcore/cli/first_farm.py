@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-import time
-from dataclasses import replace
+from dataclasses import asdict, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
     from backend.database import Database
+    from backend.models import Orthophoto
     from backend.settings import Settings
     from navcore.maps.mission import Mission
     from navcore.maps.site_map import SiteMap
 
-POLL_S = 0.1
 READY_ROW = "A3"
 
 
@@ -50,43 +49,56 @@ def _known_to_robot(settings: Settings) -> list[str]:
 
 
 def _make_demo(settings: Settings, database: Database) -> None:
-    """Demo farm, its picture, and missions that are ready to start, through the station's own doors."""
+    """Demo farm, its picture, and missions that are ready to start."""
     from backend import uploads
-    from backend.ids import new_id
-    from backend.import_jobs import ImportJobs
     from backend.missions import MissionStore
-    from navcore.sim.orthophoto.painter import write_orthophoto
 
     uploads.clear(settings)
     site = _demo_site()
-    picture = settings.upload_dir / f"{new_id()}.upload"
-    write_orthophoto(site, picture)
-    jobs = ImportJobs(settings)
-    job_id = jobs.start(picture, lambda path, facts: _store(settings, database, site, path, facts))
-    while (job := jobs.get(job_id)).state == "running":
-        time.sleep(POLL_S)
-    site_id = job.site_id or _store_without_picture(database, site)
+    site_id = _store(settings, database, site)
     missions = MissionStore(database)
     for mission in _ready_missions(site):
         missions.create(site_id, mission)
     _write(settings.data_dir / "robot" / f"{site_id}.json", site)
 
 
-def _store(settings: Settings, database: Database, site: SiteMap, picture: Path, facts: dict[str, Any]) -> str:
+def _store(settings: Settings, database: Database, site: SiteMap) -> str:
+    """Id of the farm, stored with its picture; without one where that fails: a newcomer can drive all the same.
+
+    The picture is imported as others are, but here: it is our own, and a process that gives way to all others would
+    keep the first start waiting on a busy machine.
+    """
+    from backend.ids import new_id
+    from backend.orthophoto_import import DAMAGED
+    from backend.sites import SiteStore
+    from navcore.errors import OrthophotoError
+
+    painted = settings.upload_dir / f"{new_id()}.upload"
+    try:
+        return SiteStore(database).create(site, _picture(settings, site, painted)).id
+    except (OrthophotoError, OSError, *DAMAGED):
+        return SiteStore(database).create(site).id
+    finally:
+        painted.unlink(missing_ok=True)
+        painted.with_suffix(".tif").unlink(missing_ok=True)
+
+
+def _picture(settings: Settings, site: SiteMap, painted: Path) -> Orthophoto:
+    """The farm from above, painted and imported. Raises OrthophotoError, and OSError on a full disk."""
+    from backend.orthophoto_check import CheckParams
+    from backend.orthophoto_import import import_picture
     from backend.picture_sites import orthophoto_row
     from backend.picture_store import PictureStore
-    from backend.sites import SiteStore
+    from navcore.sim.orthophoto.painter import write_orthophoto
 
-    row = orthophoto_row("Demo farm.tif", facts)
-    PictureStore(settings.orthophoto_dir, settings.tile_dir).take_over(row.id, picture)
-    return SiteStore(database).create(site, row).id
-
-
-def _store_without_picture(database: Database, site: SiteMap) -> str:
-    """A full disk must not keep the newcomer from driving."""
-    from backend.sites import SiteStore
-
-    return SiteStore(database).create(site).id
+    write_orthophoto(site, painted)
+    finished = painted.with_suffix(".tif")
+    facts = import_picture(
+        painted, finished, CheckParams(decoded_bytes=settings.decoded_limit_bytes), lambda share, words: None
+    )
+    row = orthophoto_row("Demo farm.tif", asdict(facts))
+    PictureStore(settings.orthophoto_dir, settings.tile_dir).take_over(row.id, finished)
+    return row
 
 
 def _ready_missions(site: SiteMap) -> list[Mission]:

@@ -79,7 +79,8 @@ def _folder(folder: Path, period: float) -> Iterator[Scan]:
     import re
 
     from navcore.errors import CloudError
-    from navcore.maps.cloud_files.cloud_file import CLOUD_ENDINGS, read_cloud
+    from navcore.maps.cloud_files.cloud_endings import CLOUD_ENDINGS
+    from navcore.maps.cloud_files.cloud_file import read_cloud
 
     if not folder.is_dir():
         raise CloudError(f"{folder} is no folder and no capture ({', '.join(_CAPTURES)}); give one of the two.")

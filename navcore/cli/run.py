@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import signal
 import socket
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -14,6 +15,7 @@ from navcore.errors import RowpilotError
 if TYPE_CHECKING:
     from backend.settings import Settings
     from navcore.runtime.processes import Robot
+    from navcore.runtime.simulation import SimulationParams
 
 MULTICAST_GROUP = "239.74.163.2"
 
@@ -59,23 +61,19 @@ def _settings(port: int | None, data: Path | None, *, simulated: bool) -> Settin
 
 def _run(settings: Settings, can: str | None, gnss: str | None, config: Path | None, simulation: str) -> None:
     from navcore.cli.first_farm import beginning_farm
-    from navcore.config import load_config
-    from navcore.perception.detector_choice import new_detector
     from navcore.runtime.supervisor import Supervisor
 
     if config is not None:
-        # Each process reads it for itself: what is wrong with it is said before any begins.
-        detector = load_config(config).detector
-        if detector.weights:
-            new_detector(detector)
+        _check(config)
+    robot_on = (
+        partial(_real_robot, settings, can, _receiver(gnss), config)
+        if can
+        else partial(_simulated_robot, settings, _choices(simulation), config)
+    )
+    # All that was given is sound: only now is anything written.
     settings.data_dir.mkdir(parents=True, exist_ok=True)
     farm = beginning_farm(settings)
-    robot = (
-        _real_robot(settings, farm.path, can, gnss, config)
-        if can
-        else _simulated_robot(settings, farm.path, config, simulation)
-    )
-    supervisor = Supervisor(robot, farm.site_id, _environment(settings))
+    supervisor = Supervisor(robot_on(farm.path), farm.site_id, _environment(settings))
     ended: list[int] = []
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, lambda got, _: ended.append(got))
@@ -85,6 +83,16 @@ def _run(settings: Settings, can: str | None, gnss: str | None, config: Path | N
             supervisor.watch()
     finally:
         supervisor.close()
+
+
+def _check(config: Path) -> None:
+    """Each process reads the settings for itself: what is wrong with them is said before any begins."""
+    from navcore.config import load_config
+    from navcore.perception.detector_choice import new_detector
+
+    detector = load_config(config).detector
+    if detector.weights:
+        new_detector(detector)
 
 
 def _environment(settings: Settings) -> dict[str, str]:
@@ -99,17 +107,33 @@ def _environment(settings: Settings) -> dict[str, str]:
     }
 
 
-def _simulated_robot(settings: Settings, site: Path, config: Path | None, simulation: str) -> Robot:
+def _choices(simulation: str) -> SimulationParams:
+    """What is simulated. Raises ConfigError."""
     import msgspec
 
     from navcore.errors import ConfigError
-    from navcore.runtime.processes import CanSettings, Robot
     from navcore.runtime.simulation import SimulationParams
 
     try:
-        params = msgspec.json.decode(simulation, type=SimulationParams)
+        return msgspec.json.decode(simulation, type=SimulationParams)
     except msgspec.DecodeError as error:
         raise ConfigError(f"The simulation's settings are not usable: {error}") from error
+
+
+def _receiver(gnss: str | None) -> str:
+    """The receiver's address. Raises ConfigError for none, and for one that cannot be."""
+    from navcore.errors import ConfigError
+    from navcore.runtime.device_address import DeviceAddress
+
+    if gnss is None:
+        raise ConfigError("A real robot needs a receiver: give --gnss.")
+    DeviceAddress(gnss)
+    return gnss
+
+
+def _simulated_robot(settings: Settings, params: SimulationParams, config: Path | None, site: Path) -> Robot:
+    from navcore.runtime.processes import CanSettings, Robot
+
     options = {"port": _free_port(socket.SOCK_DGRAM), "hop_limit": 0, "fd": 0}
     return Robot(
         bus=settings.bus_dir, site=site, vehicle=settings.vehicle, config=config,
@@ -118,14 +142,9 @@ def _simulated_robot(settings: Settings, site: Path, config: Path | None, simula
     )  # fmt: skip
 
 
-def _real_robot(settings: Settings, site: Path, can: str, gnss: str | None, config: Path | None) -> Robot:
-    from navcore.errors import ConfigError
-    from navcore.runtime.device_address import DeviceAddress
+def _real_robot(settings: Settings, can: str, gnss: str, config: Path | None, site: Path) -> Robot:
     from navcore.runtime.processes import CanSettings, Robot
 
-    if gnss is None:
-        raise ConfigError("A real robot needs a receiver: give --gnss.")
-    DeviceAddress(gnss)
     return Robot(
         bus=settings.bus_dir, site=site, vehicle=settings.vehicle, config=config,
         can=CanSettings(interface="socketcan", channel=can), gnss=gnss, calibration=settings.calibration_dir,

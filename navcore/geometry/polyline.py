@@ -116,6 +116,10 @@ class Polyline:
     def _segment(self, s: float) -> int:
         return min(max(bisect_right(self._s_list, s) - 1, 0), len(self._s_list) - 2)
 
+    def _segments(self, s: Floats) -> NDArray[np.intp]:
+        """The same for arc lengths (N,)."""
+        return np.asarray(np.clip(np.searchsorted(self.s, s, side="right") - 1, 0, len(self._lengths) - 1))
+
     def vertex_before(self, s: float) -> float:
         """Arc length of the last vertex at or before `s` that begins a segment."""
         return self._s_list[self._segment(s)]
@@ -129,13 +133,17 @@ class Polyline:
     def at_all(self, s: Floats) -> Floats:
         """Points (N, 2) at arc lengths (N,), prolonged straight at both ends."""
         s = np.asarray(s, dtype=np.float64)
-        i = np.clip(np.searchsorted(self.s, s, side="right") - 1, 0, len(self._lengths) - 1)
+        i = self._segments(s)
         along = s - self.s[i]
         return np.column_stack((self._x[i] + along * self._ux[i], self._y[i] + along * self._uy[i]))
 
     def heading_at(self, s: float) -> float:
         """Direction of the segment at arc length `s`, rad."""
         return float(self._heading[self._segment(s)])
+
+    def heading_at_all(self, s: Floats) -> Floats:
+        """Directions (N,) of the segments at arc lengths (N,), rad."""
+        return np.asarray(self._heading[self._segments(s)])
 
     def curvature_at(self, s: float) -> float:
         """Curvature, 1/m, positive to the left: turn at the vertices per length, linear in between, 0 outside."""

@@ -8,7 +8,6 @@ from pathlib import Path
 
 import msgspec
 
-from navcore.config import load_config
 from navcore.runtime.simulation import SimulationParams
 from navcore.transport.endpoints import Endpoints
 from navcore.vehicle import PROFILES, VehicleParams
@@ -111,7 +110,12 @@ def has_lidar3d(robot: Robot) -> bool:
     """Simulated or real."""
     if robot.simulation is not None:
         return robot.simulation.lidar3d
-    return bool(robot.config and load_config(robot.config).lidar3d.model)
+    if robot.config is None:
+        return False
+    # Here, because the settings name every room of the robot: without a file of them nothing waits for those.
+    from navcore.config import load_config
+
+    return bool(load_config(robot.config).lidar3d.model)
 
 
 PROCESSES: tuple[ProcessSpec, ...] = (

@@ -9,18 +9,18 @@ from navcore.geometry.pinhole import robot_camera
 from navcore.geometry.se2 import SE2
 from navcore.messages import CameraName, DetectedObject, ObjectKind
 from navcore.perception.detector import Told
-from navcore.perception.plants.plant_tracker import PlantTracker
+from navcore.perception.plants.plant_tracker import PlantTracker, PlantTrackerParams
 from navcore.perception.row_lines import RowPrior
 from navcore.perception.row_perception import RowPerception, RowPerceptionParams
 from navcore.perception.scan.scan_clusters import ScanClusters
 
 
 def warm_up() -> None:
-    """One scan of some trunks, and two pictures with it; the machine code stays in numba's cache on disk."""
+    """Scans of some trunks, and two pictures with them; the machine code stays in numba's cache on disk."""
     tracker, clusters = PlantTracker(robot_lidar()), ScanClusters()
     angles = -np.arange(1600, dtype=np.float64) * (2.0 * np.pi / 1600)
     distances = np.where(np.arange(1600) % 40 < 6, 2.0 + 0.002 * (np.arange(1600) % 7), 0.0)
-    for _ in range(3):
+    for _ in range(PlantTrackerParams().anchors + 1):  # the last is laid over those before it
         tracker.see(clusters.find(angles, distances), SE2())
     told = Told()
     told.objects = (DetectedObject(kind=ObjectKind.TRUNK, confidence=0.9, x1=200.0, y1=150.0, x2=210.0, y2=250.0),)

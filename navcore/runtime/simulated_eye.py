@@ -5,21 +5,13 @@ from __future__ import annotations
 import numpy as np
 
 from navcore.geometry.lidar_mount import LidarMount
-from navcore.geometry.pinhole import PinholeCamera, robot_camera
 from navcore.messages import CameraName, CameraRequest, CameraView, LidarScan, SimTruth
 from navcore.perception.plants.scan_eye import ScanEye
 from navcore.perception.row_perception import RowPerception, RowPerceptionParams
 from navcore.runtime.row_eye import RowEye
+from navcore.runtime.simulation import robot_cameras
 from navcore.sim.orchard import Orchard
 from navcore.sim.projected_objects import ProjectedObjects, ProjectedObjectsParams
-
-
-def robot_cameras(*, width_px: int = 640, height_px: int = 360) -> dict[CameraName, PinholeCamera]:
-    """Front and rear camera of the default robot."""
-    return {
-        name: robot_camera(rear=name is CameraName.REAR, width_px=width_px, height_px=height_px)
-        for name in CameraName
-    }
 
 
 class ProjectedEye:

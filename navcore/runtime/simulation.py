@@ -4,17 +4,26 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import StrEnum
+from typing import TYPE_CHECKING
 
 from navcore.geometry.lidar_mount import LidarMount, robot_lidar
-from navcore.geometry.pinhole import PinholeCamera
+from navcore.geometry.pinhole import PinholeCamera, robot_camera
 from navcore.maps.site_map import SiteMap
 from navcore.messages import CameraName
-from navcore.runtime.simulated_eye import robot_cameras
 from navcore.sim.camera_light import LightName, LightParams, named_light
-from navcore.sim.lidar2d import Lidar2dParams
 from navcore.sim.orchard import OrchardParams, Season
-from navcore.sim.world import World, WorldParams
 from navcore.vehicle import VehicleParams
+
+if TYPE_CHECKING:
+    from navcore.sim.world import World
+
+
+def robot_cameras(*, width_px: int = 640, height_px: int = 360) -> dict[CameraName, PinholeCamera]:
+    """Front and rear camera of the default robot."""
+    return {
+        name: robot_camera(rear=name is CameraName.REAR, width_px=width_px, height_px=height_px)
+        for name in CameraName
+    }
 
 
 class DetectorKind(StrEnum):
@@ -51,6 +60,10 @@ class SimulationParams:
 
     def world(self, site: SiteMap, vehicle: VehicleParams, start_ns: int) -> World:
         """The world of this simulation."""
+        # Here, because whoever starts the processes reads the choices only, and all of them wait for him.
+        from navcore.sim.lidar2d import Lidar2dParams
+        from navcore.sim.world import World, WorldParams
+
         orchard = OrchardParams(seed=self.world_seed, season=self.season)
         lidar2d = Lidar2dParams() if self.lidar2d else None
         return World(site, vehicle, WorldParams(seed=self.world_seed, orchard=orchard, lidar2d=lidar2d), start_ns)

@@ -43,7 +43,7 @@ class BoardRehearsalParams:
 
     poses: int = 32
     seed: int = 1
-    held: int = 8
+    held: int = 6
     moving: int = 1
     height: float = 0.06
 

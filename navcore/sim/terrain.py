@@ -111,9 +111,9 @@ class Terrain:
         bumps = _bumps((len(ys), len(xs)), params, rng)
         self._slope = _slope(site, params, rng)
         heights = bumps + np.asarray(centres @ self._slope).reshape(len(ys), len(xs))
-        heights -= _ruts(centres, site, params).reshape(heights.shape)
+        heights -= _ruts(xs, ys, site, params)
         self._heights = np.ascontiguousarray(heights.ravel()).data
-        self._surfaces = _surfaces(centres, site, heights.shape, params, rng).data
+        self._surfaces = _surfaces(xs, ys, site, params, rng).ravel().data
 
     def height(self, x: float, y: float) -> float:
         """Height of the ground above the plane z = 0, m, bilinear; outside the grid its edge goes on."""
@@ -190,13 +190,24 @@ def _along(line: tuple[Point, ...]) -> Floats:
     return np.concatenate(pieces)
 
 
-def _away(centres: Floats, lines: Sequence[tuple[Point, ...]], limit: float) -> Floats:
-    """Distance (N,) to the nearest of the polylines, infinite beyond `limit`."""
-    if not lines:
-        return np.full(len(centres), np.inf)
-    return np.asarray(
-        cKDTree(np.concatenate([_along(a) for a in lines])).query(centres, distance_upper_bound=limit)[0]
-    )
+def _away(xs: Floats, ys: Floats, lines: Sequence[tuple[Point, ...]], limit: float) -> Floats:
+    """Distance (R, C) of the grid's cells to the nearest of the polylines, infinite beyond `limit`."""
+    away = np.full((len(ys), len(xs)), np.inf)
+    for points in (piece for line in lines for piece in _pieces(_along(line))):
+        # only the cells about a piece are asked: most of a farm is far from everything
+        columns, rows = (
+            slice(*np.searchsorted(axis, (points[:, i].min() - limit, points[:, i].max() + limit)))
+            for i, axis in enumerate((xs, ys))
+        )
+        near = np.stack(np.meshgrid(xs[columns], ys[rows]), axis=-1)
+        found = cKDTree(points).query(near, distance_upper_bound=limit)[0]
+        away[rows, columns] = np.minimum(away[rows, columns], found)
+    return away
+
+
+def _pieces(points: Floats) -> list[Floats]:
+    """About 5 m each."""
+    return np.array_split(points, math.ceil(len(points) / 50))
 
 
 def _bumps(shape: tuple[int, int], params: TerrainParams, rng: np.random.Generator) -> Floats:
@@ -219,22 +230,20 @@ def _slope(site: SiteMap, params: TerrainParams, rng: np.random.Generator) -> tu
     return slope * math.cos(direction), slope * math.sin(direction)
 
 
-def _ruts(centres: Floats, site: SiteMap, params: TerrainParams) -> Floats:
-    """Depth of the ruts (N,): two troughs of 0.12 m half width beside the middle of every lane and row."""
+def _ruts(xs: Floats, ys: Floats, site: SiteMap, params: TerrainParams) -> Floats:
+    """Depth of the ruts (R, C): two troughs of 0.12 m half width beside the middle of every lane and row."""
     ways = [lane.points for lane in site.lanes] + [(row.start, row.end) for row in site.rows]
-    beside = _away(centres, ways, params.rut_track / 2 + 0.5) - params.rut_track / 2
+    beside = _away(xs, ys, ways, params.rut_track / 2 + 0.5) - params.rut_track / 2
     return np.asarray(params.rut_depth * np.exp(-((beside / 0.12) ** 2)))
 
 
-def _surfaces(
-    centres: Floats, site: SiteMap, shape: tuple[int, int], params: TerrainParams, rng: np.random.Generator
-) -> Bytes:
-    """Dirt on the lanes, elsewhere patches of a few metres."""
-    patches = gaussian_filter(rng.standard_normal(shape), 1.5 / params.cell, truncate=3.0).ravel()
+def _surfaces(xs: Floats, ys: Floats, site: SiteMap, params: TerrainParams, rng: np.random.Generator) -> Bytes:
+    """Kinds (R, C): dirt on the lanes, elsewhere patches of a few metres."""
+    patches = gaussian_filter(rng.standard_normal((len(ys), len(xs))), 1.5 / params.cell, truncate=3.0)
     wet, soil = np.quantile(patches, [params.wet_share, 1.0 - params.soil_share])
-    kinds = np.full(len(centres), Surface.GRASS, dtype=np.uint8)
+    kinds = np.full(patches.shape, Surface.GRASS, dtype=np.uint8)
     kinds[patches < wet] = Surface.WET
     kinds[patches > soil] = Surface.SOIL
     for lane in site.lanes:
-        kinds[np.isfinite(_away(centres, [lane.points], lane.width / 2))] = Surface.DIRT
+        kinds[np.isfinite(_away(xs, ys, [lane.points], lane.width / 2))] = Surface.DIRT
     return kinds

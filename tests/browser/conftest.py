@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Browser, Page, expect, sync_playwright
+from playwright.sync_api import Browser, Page, StorageState, ViewportSize, expect, sync_playwright
 
 from tests.browser.running_station import RunningStation
 from tests.browser.witness import Witness
@@ -41,10 +41,17 @@ def browser() -> Iterator[Browser]:
 
 
 @pytest.fixture
-def page(browser: Browser) -> Iterator[Page]:
+def login() -> StorageState | None:
+    """Nobody's: whoever wants to come in opens the station's address."""
+    return None
+
+
+@pytest.fixture
+def page(browser: Browser, login: StorageState | None) -> Iterator[Page]:
     """An empty tab of a desktop's size."""
     expect.set_options(timeout=PATIENCE_MS)
-    context = browser.new_context(viewport={"width": 1440, "height": 900}, accept_downloads=True)
+    size: ViewportSize = {"width": 1440, "height": 900}
+    context = browser.new_context(viewport=size, accept_downloads=True, storage_state=login)
     context.set_default_timeout(PATIENCE_MS)
     yield context.new_page()
     context.close()

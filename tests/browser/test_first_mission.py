@@ -54,13 +54,6 @@ def test_ready_mission_is_started_watched_stopped_and_its_log_taken_home(
     witness.assert_nothing_happened()
 
 
-def test_address_works_once(page: Page, station: RunningStation) -> None:
-    driving.enter(page, station.address)
-    page.context.clear_cookies()
-    page.goto(station.address)
-    expect(page.get_by_role("navigation", name="Pages")).to_have_count(0)
-
-
 def _way(first: dict[str, Any], told: list[dict[str, Any]]) -> float:
     """Metres between the first pose and the newest."""
     return math.dist(_place(first), _place(driving.newest(told, "nav/status") or first))

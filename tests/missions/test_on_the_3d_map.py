@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
@@ -12,7 +12,6 @@ import pytest
 from navcore.localization.lidar3d.map_localizer import MapLocalizer
 from navcore.maps.mission import RowExit
 from navcore.maps.ndt.ndt_map import NdtMap
-from navcore.maps.site_map import SiteMap
 from navcore.messages import GhostSource, MatchState, NavMode, RunState
 from navcore.planning.mission_planner import mission_for_row
 from navcore.runtime.lockstep import Lockstep, Tick
@@ -30,11 +29,12 @@ def farm_map() -> NdtMap:
     return mapped(World(small_farm(), PAPER_A, AS_DRAWN))
 
 
-@pytest.fixture
-def park_on_map(farm: SiteMap, farm_map: NdtMap) -> Callable[[], Drive]:
+@pytest.fixture(scope="module")
+def park_on_map(farm_map: NdtMap) -> Callable[[], Drive]:
     """A parked robot with a 3D LiDAR on its farm's map."""
 
     def parked() -> Drive:
+        farm = small_farm()
         world = World(farm, PAPER_A, AS_DRAWN, start_ns=1_000_000_000)
         lockstep = Lockstep(
             world, CONFIG.new_navigator(farm.datum), ProjectedEye(world.orchard, AS_DRAWN.seed),
@@ -48,6 +48,30 @@ def park_on_map(farm: SiteMap, farm_map: NdtMap) -> Callable[[], Drive]:
     return parked
 
 
+@dataclass(frozen=True, slots=True)
+class Blinded:
+    """A whole mission whose camera goes blind in the row; in which ticks the row took over, and then the map."""
+
+    drive: Drive
+    in_row: int
+    on_map: int
+
+
+@pytest.fixture(scope="module")
+def blinded(park_on_map: Callable[[], Drive]) -> Blinded:
+    drive = park_on_map()
+    drive.until_mode(NavMode.ROW)
+    in_row = len(drive.ticks) - 1
+    drive.until(lambda _: False, seconds=5)
+    eye = drive.lockstep.eye
+    assert isinstance(eye, ProjectedEye)
+    eye.blind = True
+    drive.until_mode(NavMode.MAP, seconds=2)
+    on_map = len(drive.ticks)
+    drive.until_state(RunState.FINISHED, RunState.STOPPED, seconds=600)
+    return Blinded(drive, in_row, on_map)
+
+
 def map_errors(ticks: list[Tick]) -> list[float]:
     """Of all matches, m: places as told against the truth of that moment."""
     truth = {tick.truth.stamp_ns: tick.truth for tick in ticks}
@@ -55,19 +79,12 @@ def map_errors(ticks: list[Tick]) -> list[float]:
     return [math.dist((m.x, m.y), (truth[m.stamp_ns].x, truth[m.stamp_ns].y)) for m in matches if m.stamp_ns in truth]
 
 
-def test_the_map_drives_on_through_a_row_when_the_camera_goes_blind(park_on_map: Callable[[], Drive]) -> None:
-    drive = park_on_map()
-    drive.until_mode(NavMode.ROW)
-    drive.until(lambda _: False, seconds=5)
-    eye = drive.lockstep.eye
-    assert isinstance(eye, ProjectedEye)
-    eye.blind = True
-    drive.until_mode(NavMode.MAP, seconds=2)
-    on_map = len(drive.ticks)
-    last = drive.until_state(RunState.FINISHED, RunState.STOPPED, seconds=600)
+def test_the_map_drives_on_through_a_row_when_the_camera_goes_blind(blinded: Blinded) -> None:
+    drive = blinded.drive
+    last = drive.ticks[-1]
     assert last.decision.status.state is RunState.FINISHED, last.decision.status.events
     assert drive.lockstep.world.touched == []
-    errors = map_errors(drive.ticks[on_map:])
+    errors = map_errors(drive.ticks[blinded.on_map :])
     assert len(errors) > 100
     assert float(np.mean(errors)) < 0.04  # m
 
@@ -96,10 +113,10 @@ def test_the_map_takes_over_on_the_road_while_gnss_has_no_fix(park_on_map: Calla
     assert float(np.mean(map_errors(drive.ticks))) < 0.05  # m
 
 
-def test_four_ghosts_say_how_far_they_are_from_the_driven_pose(park_on_map: Callable[[], Drive]) -> None:
-    drive = park_on_map()
-    last = drive.until_mode(NavMode.ROW)
-    ghosts = {ghost.source: ghost for ghost in last.decision.status.ghosts}
+def test_four_ghosts_say_how_far_they_are_from_the_driven_pose(blinded: Blinded) -> None:
+    entered = blinded.drive.ticks[blinded.in_row]
+    assert entered.decision.status.mode is NavMode.ROW
+    ghosts = {ghost.source: ghost for ghost in entered.decision.status.ghosts}
     assert set(ghosts) == set(GhostSource)
     assert ghosts[GhostSource.ROWS].apart < 0.05  # m
     assert ghosts[GhostSource.MAP].apart < 0.3  # m

@@ -3,51 +3,63 @@
 from __future__ import annotations
 
 import statistics
-from collections.abc import Callable
 from dataclasses import replace
 from itertools import groupby
 
+import pytest
+
 from navcore.maps.mission import RowExit
-from navcore.maps.site_map import SiteMap
+from navcore.maps.site_map import Row, SiteMap
 from navcore.messages import CameraName, NavMode, RunState
 from navcore.mission.mode_selector import CARRIED
 from navcore.planning.mission_planner import mission_for_row
+from navcore.runtime.lockstep import Tick
 from navcore.sim.world import WorldParams
-from tests.missions.conftest import Drive, new_drive, off_line
+from tests.missions.conftest import Drive, new_drive, off_line, small_farm
 
 START_TO_ROW_S = 75.0
 
 
-def test_robot_changes_rows_over_the_headland_and_comes_home(park: Callable[[int], Drive], farm: SiteMap) -> None:
-    drive = park(3)
+@pytest.fixture(scope="module")
+def driven() -> Drive:
+    """One whole mission: into a row, over the headland, out of the next one and home."""
+    farm = small_farm()
+    drive = new_drive(farm, WorldParams(seed=3))
     drive.start(farm, mission_for_row(farm, "r1", RowExit.NEXT_ROW))
-    last = drive.until_state(RunState.FINISHED, RunState.STOPPED, seconds=600)
+    drive.until_state(RunState.FINISHED, RunState.STOPPED, seconds=600)
+    return drive
+
+
+def test_robot_changes_rows_over_the_headland_and_comes_home(driven: Drive) -> None:
+    last = driven.ticks[-1]
     assert last.decision.status.state is RunState.FINISHED, last.decision.status.events
-    assert statistics.mean(abs(e) for e in drive.lateral_in_rows()) < 0.10  # m
-    modes = [s.after for s in drive.switches]
+    assert statistics.mean(abs(e) for e in driven.lateral_in_rows()) < 0.10  # m
+    modes = [s.after for s in driven.switches]
     assert modes.count(NavMode.ROW) == 2
     assert NavMode.HEADLAND in modes
 
 
-def test_on_the_way_out_the_robot_looks_back_and_before_the_next_row_ahead(
-    park: Callable[[int], Drive], farm: SiteMap
-) -> None:
-    drive = park(3)
-    drive.start(farm, mission_for_row(farm, "r1", RowExit.NEXT_ROW))
-    drive.until_mode(NavMode.ROW)
-    drive.until_mode(NavMode.ROW_END)
-    drive.until(lambda tick: tick.decision.status.mode is NavMode.ROW, seconds=200)
-    looks = [t.decision.camera for t in drive.ticks if t.decision.status.mode in CARRIED and t.decision.camera]
+def test_on_the_way_out_the_robot_looks_back_and_before_the_next_row_ahead(driven: Drive) -> None:
+    ticks = _until_the_next_row(driven.ticks)
+    looks = [t.decision.camera for t in ticks if t.decision.status.mode in CARRIED and t.decision.camera]
     cameras = [camera for camera, _ in groupby(look.camera for look in looks)]
     assert cameras == [CameraName.FRONT, CameraName.REAR, CameraName.FRONT]
-    assert len(_agreeing_looks_back(drive)) > 20
-    assert all(abs(off) < 0.15 for off in _agreeing_looks_back(drive))  # m
+    row = next(row for row in driven.lockstep.world.site.rows if row.id == "r1")
+    back = _agreeing_looks_back(ticks, row)
+    assert len(back) > 20
+    assert all(abs(off) < 0.15 for off in back)  # m
 
 
-def _agreeing_looks_back(drive: Drive) -> list[float]:
+def _until_the_next_row(ticks: list[Tick]) -> list[Tick]:
+    """Up to the tick in which the second row is driven on the camera."""
+    modes = [tick.decision.status.mode for tick in ticks]
+    left = modes.index(NavMode.ROW_END, modes.index(NavMode.ROW))
+    return ticks[: modes.index(NavMode.ROW, left) + 1]
+
+
+def _agreeing_looks_back(ticks: list[Tick], row: Row) -> list[float]:
     """By how much each valid view of the rear camera is off the true row that is left, m."""
-    row = next(row for row in drive.lockstep.world.site.rows if row.id == "r1")
-    views = [(tick, v.row) for tick in drive.ticks for v in tick.views if v.camera is CameraName.REAR]
+    views = [(tick, v.row) for tick in ticks for v in tick.views if v.camera is CameraName.REAR]
     return [off_line(tick, row.start, row.end) - seen.offset for tick, seen in views if seen.offset is not None]
 
 

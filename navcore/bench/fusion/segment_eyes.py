@@ -37,7 +37,7 @@ from navcore.perception.published_fusion.published_chain import (
 from navcore.perception.row_perception import RowPerception
 from navcore.perception.scan.scan_points import ScanPointsParams, scan_points
 from navcore.runtime.row_eye import RowEye
-from navcore.runtime.simulated_eye import robot_cameras
+from navcore.runtime.simulation import robot_cameras
 from navcore.sim.camera_light import named_light
 from navcore.sim.camera_renderer import CameraRenderer, Scene
 from navcore.sim.orchard import Orchard

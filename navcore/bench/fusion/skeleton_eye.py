@@ -6,7 +6,7 @@ from navcore.bench.fusion.segment_eyes import Pictures, bare_view
 from navcore.messages import CameraRequest, CameraView, LidarScan, SimTruth
 from navcore.perception.published_fusion.ground_segmenter import GroundSegmenter
 from navcore.perception.published_fusion.skeleton_chain import SegmentationSkeleton, SkeletonChainParams
-from navcore.runtime.simulated_eye import robot_cameras
+from navcore.runtime.simulation import robot_cameras
 
 
 class SkeletonEye:

@@ -13,7 +13,7 @@ from navcore.geometry.lidar_mount import LidarMount
 from navcore.geometry.pinhole import rotation_from_rpy
 from navcore.geometry.se2 import SE2
 from navcore.messages import CameraName, CameraRequest, CameraView, DetectedObject, LidarScan, SimTruth
-from navcore.runtime.simulated_eye import robot_cameras
+from navcore.runtime.simulation import robot_cameras
 from navcore.sim.orchard import Orchard
 from navcore.sim.trunk_sections import trunk_sections
 

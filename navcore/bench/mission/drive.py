@@ -31,7 +31,8 @@ from navcore.planning.mission_planner import plan_mission
 from navcore.planning.row_mission import mission_for_row
 from navcore.runtime.lockstep import Eye, Lockstep, Tick
 from navcore.runtime.row_eye import RowEye
-from navcore.runtime.simulated_eye import ProjectedEye, robot_cameras
+from navcore.runtime.simulated_eye import ProjectedEye
+from navcore.runtime.simulation import robot_cameras
 from navcore.sim.camera_light import named_light
 from navcore.sim.camera_renderer import CameraRenderer, Scene
 from navcore.sim.layouts import scoring_layout, tuning_layout

@@ -8,16 +8,16 @@ from pathlib import Path
 from navcore.disk import write_durably
 from navcore.errors import CloudError
 from navcore.geometry.point_cloud import PointCloud
+from navcore.maps.cloud_files.cloud_endings import CLOUD_ENDINGS
 from navcore.maps.cloud_files.file_cloud import FileCloud
 from navcore.maps.cloud_files.kitti import read_kitti
 from navcore.maps.cloud_files.laz import laz_bytes, read_laz
 from navcore.maps.cloud_files.pcd import pcd_bytes, read_pcd
 from navcore.maps.cloud_files.ply import read_ply
 
-_READERS: dict[str, Callable[[bytes, str], FileCloud]] = {
-    ".pcd": read_pcd, ".ply": read_ply, ".las": read_laz, ".laz": read_laz, ".bin": read_kitti,
-}  # fmt: skip
-CLOUD_ENDINGS = tuple(_READERS)
+_READERS: dict[str, Callable[[bytes, str], FileCloud]] = dict(
+    zip(CLOUD_ENDINGS, (read_pcd, read_ply, read_laz, read_laz, read_kitti), strict=True)
+)
 
 
 def read_cloud(path: Path) -> FileCloud:

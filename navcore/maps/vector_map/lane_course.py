@@ -20,7 +20,7 @@ def course(points: tuple[Point, ...]) -> Floats:
     """Arc length, m, direction, rad, and curvature, 1/m, (N, 3), every `STEP` m and at the end."""
     line = Polyline(np.asarray(points, dtype=np.float64))
     places = np.append(np.arange(0.0, line.length - 1e-6, STEP), line.length)
-    headings = [line.heading_at(min(s, max(line.length - 1e-6, 0.0))) for s in places.tolist()]
+    headings = line.heading_at_all(np.minimum(places, max(line.length - 1e-6, 0.0)))
     return np.column_stack((places, headings, _curvatures(line, places)))
 
 

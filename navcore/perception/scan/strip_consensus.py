@@ -60,7 +60,8 @@ class StripConsensus:
     def fit(self, points: Floats, confidences: Floats) -> PointLine | None:
         """See `PointLineFitter`; each point counts alike."""
         xy, _ = checked_points(points, confidences)
-        heading, offset, inliers = consensus(xy[:, 0], xy[:, 1], self._params.half_width)
+        x, y = np.ascontiguousarray(xy.T)
+        heading, offset, inliers = consensus(x, y, self._params.half_width)
         if np.count_nonzero(inliers) < self._params.min_points:
             return None
         line = Line2(-math.sin(heading), math.cos(heading), offset)

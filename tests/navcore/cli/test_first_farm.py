@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 from collections.abc import Iterator
 from dataclasses import replace
@@ -67,6 +68,20 @@ def test_a_newcomer_begins_on_the_demo_farm_with_its_picture(settings: Settings,
     assert site.orthophoto is not None
     assert (settings.orthophoto_dir / f"{site.orthophoto.id}.tif").is_file()
     assert map_of(farm) == demo_farm()
+    assert list(settings.upload_dir.iterdir()) == []
+
+
+def test_a_full_disk_keeps_nobody_from_driving(
+    settings: Settings, database: Database, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(site: SiteMap, path: Path) -> None:
+        path.write_bytes(b"half a picture")
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(painter, "write_orthophoto", full)
+    farm = beginning_farm(settings)
+    (site,) = SiteStore(database).all()
+    assert (site.id, site.orthophoto) == (farm.site_id, None)
     assert list(settings.upload_dir.iterdir()) == []
 
 

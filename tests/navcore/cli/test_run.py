@@ -17,8 +17,6 @@ from typer.testing import CliRunner
 
 from navcore.cli import app
 
-pytestmark = pytest.mark.realtime
-
 DEADLINE_S = 60.0
 ADDRESS = re.compile(r"http://127\.0\.0\.1:\d+/enter\?token=\S+")
 
@@ -29,11 +27,17 @@ def folder() -> Iterator[Path]:
         yield Path(name)
 
 
-def start(folder: Path) -> subprocess.Popen[str]:
+@pytest.fixture(scope="module")
+def known_data(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Data of the station: made by its first start, and found by those after it."""
+    return tmp_path_factory.mktemp("run") / "data"
+
+
+def start(folder: Path, data: Path) -> subprocess.Popen[str]:
     command = [sys.executable, "-c", "from navcore.cli import main; main()", "run", "--port", "0"]
     environment = {**os.environ, "ROWPILOT_BUS_DIR": str(folder / "bus")}
     return subprocess.Popen(
-        [*command, "--data", str(folder / "data")], env=environment, text=True, stdout=subprocess.PIPE,
+        [*command, "--data", str(data)], env=environment, text=True, stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
     )  # fmt: skip
 
@@ -52,9 +56,12 @@ def processes_of(folder: Path) -> list[int]:
     return found
 
 
+@pytest.mark.realtime
 @pytest.mark.parametrize("ending", [signal.SIGTERM, signal.SIGINT, signal.SIGKILL])
-def test_one_address_is_printed_and_nothing_outlives_the_command(folder: Path, ending: signal.Signals) -> None:
-    station = start(folder)
+def test_one_address_is_printed_and_nothing_outlives_the_command(
+    folder: Path, known_data: Path, ending: signal.Signals
+) -> None:
+    station = start(folder, known_data)
     assert station.stdout is not None
     printed = ""
     while not ADDRESS.search(printed):
@@ -72,15 +79,18 @@ def test_one_address_is_printed_and_nothing_outlives_the_command(folder: Path, e
 
 
 def test_a_real_robot_needs_a_receiver(folder: Path) -> None:
-    result = CliRunner().invoke(app, ["run", "--can", "can0", "--data", str(folder)])
+    result = CliRunner().invoke(app, ["run", "--can", "can0", "--data", str(folder / "data")])
     assert result.exit_code == 1
     assert "needs a receiver" in result.output
+    assert not (folder / "data").exists()
 
 
 def test_settings_of_the_simulation_that_are_none_are_refused(folder: Path) -> None:
-    result = CliRunner().invoke(app, ["run", "--data", str(folder), "--simulation", '{"season": "monsoon"}'])
+    arguments = ["run", "--data", str(folder / "data"), "--simulation", '{"season": "monsoon"}']
+    result = CliRunner().invoke(app, arguments)
     assert result.exit_code == 1
     assert "simulation" in result.output
+    assert not (folder / "data").exists()
 
 
 @pytest.mark.parametrize("content", [None, "<gpx>", '[front_camera]\nsauce = "/dev/video0"\n'])

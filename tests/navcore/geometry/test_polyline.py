@@ -47,6 +47,14 @@ def test_a_point_beside_the_path_is_found_with_its_side(s: float, lateral: float
     assert hit.s == pytest.approx(s, abs=0.11)
 
 
+@given(courses, st.lists(st.floats(-5.0, 60.0), min_size=1))
+def test_headings_all_at_once_are_those_one_by_one(course: list[tuple[float, float]], places: list[float]) -> None:
+    assume(max(math.dist(p, course[0]) for p in course) > 1e-3)
+    path = Polyline(np.array(course))
+    asked = [*places, *path.s.tolist()]
+    assert path.heading_at_all(np.array(asked)).tolist() == [path.heading_at(s) for s in asked]
+
+
 def test_a_hint_keeps_to_its_own_pass_of_a_crossing() -> None:
     eight = Polyline(np.array([(-10.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0), (0.0, -10.0)]))
     first, second = eight.project(0.01, 0.02, near_s=9.5), eight.project(0.01, 0.02, near_s=51.0)

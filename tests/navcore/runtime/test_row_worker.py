@@ -14,7 +14,7 @@ from navcore.drivers.camera_capture import CameraParams
 from navcore.messages import CameraName, CameraView, SimTruth
 from navcore.runtime.real_cameras import RealCameras
 from navcore.runtime.row_worker import RowWorker
-from navcore.runtime.simulated_eye import robot_cameras
+from navcore.runtime.simulation import robot_cameras
 from navcore.sim.camera_light import LightName, named_light
 from navcore.sim.camera_renderer import CameraRenderer
 from navcore.sim.layouts import tuning_layout
