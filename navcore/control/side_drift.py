@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import exp
 
 from navcore.control.steering import Motion
 from navcore.control.target_line import TargetLine
@@ -14,8 +13,7 @@ class SideDriftParams:
     """Attributes:
     distance: m over which the drift is learnt, > 0.
     most: rad, no more is believed: a side slope of 5 deg pulls by 0.03.
-    band: m; further off the line nothing is learnt, for the line itself may be sliding to its place. Nor is it from
-        a line that is found anew with every look: where a row bends it would learn the bend, 3 m late.
+    band: m; further off the line nothing is learnt, for the line itself may be sliding to its place.
     slowest: m/s, slower nothing is learnt.
     """
 
@@ -43,9 +41,7 @@ class SideDrift:
         p, v = self._params, motion.v
         dt = min((now_ns - self._last_ns) * 1e-9, 0.2) if self._last_ns >= 0 else 0.0
         self._last_ns = now_ns
-        if target.found_anew:
-            self.angle *= exp(-abs(v) * dt / p.distance)
-        if target.found_anew or v < p.slowest or abs(target.lateral_error) > p.band or self._lateral is None:
+        if v < p.slowest or abs(target.lateral_error) > p.band or self._lateral is None:
             self._lateral = target.lateral_error
             return
         way, off = v * dt, target.lateral_error - self._lateral

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -16,6 +16,9 @@ from navcore.geometry.se2 import SE2
 # How much of a path is handed to the controller: enough behind for a projection, ahead for braking, m.
 BEHIND = 1.5
 AHEAD = 8.0
+# Over how many metres a line bends on as it was seen to bend, and the points' distance on such a line, m.
+BENDING = 1.5
+BENT_STEP = 0.1
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -31,7 +34,7 @@ class TargetLine:
         lateral_error: of the robot from the line, m, positive when the robot is left of it.
         heading_error: of the robot from the line's direction, rad, positive when it points too far left.
         remaining: metres from that point to the line's end; None if the line has no known end.
-        found_anew: the line moves sideways as it is found anew with every look, which is no drift of the robot.
+        scanned: it runs between plants that a 2D LiDAR has placed, and is known to centimetres.
     """
 
     source: str
@@ -42,7 +45,7 @@ class TargetLine:
     lateral_error: float
     heading_error: float
     remaining: float | None = None
-    found_anew: bool = False
+    scanned: bool = False
 
     @property
     def deadline_ns(self) -> int:
@@ -56,7 +59,7 @@ class TargetLine:
 
 def target_from_path(
     path: Polyline, T_map_driving: SE2, *, source: str, stamp_ns: int, max_age_ns: int, near_s: float | None = None,
-    ahead: float = AHEAD, found_anew: bool = False,
+    ahead: float = AHEAD, scanned: bool = False,
 ) -> TargetLine:  # fmt: skip
     """Target of a path in `map` for a robot at `T_map_driving`; `near_s` as in `Polyline.project`.
 
@@ -74,8 +77,26 @@ def target_from_path(
     return TargetLine(
         source=source, stamp_ns=stamp_ns, max_age_ns=max_age_ns, path=seen, s=s, lateral_error=hit.lateral,
         heading_error=wrap(T_map_driving.yaw - hit.heading), remaining=path.length - hit.s - hit.beyond,
-        found_anew=found_anew,
+        scanned=scanned,
     )  # fmt: skip
+
+
+def bent(target: TargetLine, curvature: float, since: float) -> TargetLine:
+    """The same line where it bends by `curvature`, 1/m, to the left, from `since` m behind the robot on.
+
+    Past `BENDING` m nobody has said how it goes on: straight.
+    """
+    # The robot's place lies in the middle of a step: there a chord runs as the arc does.
+    behind = (math.ceil(max(since, BEHIND) / BENT_STEP) + 0.5) * BENT_STEP
+    s = np.arange(target.s - behind, target.path.length, BENT_STEP)
+    driven = s - (target.s - since)
+    arc = np.clip(driven, 0.0, BENDING)
+    left = curvature * arc * (driven - 0.5 * arc)
+    ahead = target.path.at_all(s + 0.5 * BENT_STEP) - target.path.at_all(s - 0.5 * BENT_STEP)
+    normal = np.column_stack((-ahead[:, 1], ahead[:, 0])) / BENT_STEP
+    path = Polyline(target.path.at_all(s) + left[:, None] * normal)
+    hit = path.project(0.0, 0.0, float(target.s - s[0]))
+    return replace(target, path=path, s=hit.s, lateral_error=hit.lateral, heading_error=wrap(-hit.heading))
 
 
 def _prolonged(path: Polyline, T_map_driving: SE2, s0: float, s1: float) -> Polyline:

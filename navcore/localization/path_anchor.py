@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from navcore.geometry.angles import wrap
 from navcore.geometry.se2 import SE2
 from navcore.localization.path_slide import PathSlide, PathSlideParams
+from navcore.localization.row_bend import RowBend
 from navcore.localization.row_filter import RowFilter, RowFilterParams
 from navcore.localization.row_line import RowLine
 from navcore.localization.wheel_slip import WheelSlip, WheelSlipParams
@@ -73,6 +74,7 @@ class PathAnchor:
         self.T_map_odom = T_map_odom
         self.followed = self.departed = T_map_odom
         self.row = RowFilter(params.row)
+        self.bend: RowBend | None = None
         self.behind: RowFilter | None = None
         self._slide = PathSlide(params.slide)
         self.var_along = self.put_back = self.row_heading = 0.0
@@ -152,16 +154,31 @@ class PathAnchor:
             T_odom_before, T_odom_now, ((1.0 - share) * (now.x - before.x), (1.0 - share) * (now.y - before.y))
         )
 
-    def see_row(self, row: RowLine, T_odom_drive: SE2, offset: float, heading: float, noise: Floats) -> None:
-        """Lay the drawn row onto the seen centre line (`offset`, `heading` as in RowObservation, at capture).
-
-        `noise` (2, 2) is the covariance of both.
+    def see_row(
+        self, row: RowLine, T_odom_drive: SE2, offset: float, heading: float, noise: Floats, curvature: float = 0.0
+    ) -> None:  # fmt: skip
+        """Lay the drawn row onto the seen centre line (`offset`, `heading`, `curvature` as in RowObservation, at
+        capture). `noise` (2, 2) is the covariance of the first two.
         """
         self.row_heading = row.heading
+        self._go_along_bend(T_odom_drive)
         at = row.coordinates(self.T_map_odom @ T_odom_drive)
         innovation = np.array((-offset - at.y, wrap(-heading - at.yaw)))
         across, turn = self.row.look(innovation, noise, inside=at.x > 0.0)
         self._set(row.pose(SE2(at.x, at.y + across, at.yaw + turn)), T_odom_drive)
+        self.bend = RowBend(row, at.x, curvature) if curvature else None
+
+    def straighten(self, T_odom_drive: SE2) -> None:
+        """From here on the row is straight as it is drawn; here the path stays where it is."""
+        self._go_along_bend(T_odom_drive)
+        self.bend = None
+
+    def _go_along_bend(self, T_odom_drive: SE2) -> None:
+        """Lay the drawn row onto the seen one where the robot is now, as it bends: that is no error of odometry."""
+        if self.bend is None:
+            return
+        step = self.bend.step(self.T_map_odom @ T_odom_drive)
+        self.T_map_odom, self.followed = step @ self.T_map_odom, step @ self.followed
 
     def look_back(self) -> None:
         """From now on the row that is being left is seen from its end."""

@@ -103,6 +103,8 @@ class RowObservation:
         offset: signed distance from the driving frame's origin to the centre line, m, positive if the line is left.
         heading: direction of the centre line in the driving frame, rad.
         offset_std, heading_std: 1-sigma. correlation: of both errors, in (-1, 1).
+        curvature: of the centre line beside the origin, 1/m, positive if it bends to the left; 0 where it is taken to
+            be straight, as by a camera alone.
         quality: 0 to 1.
         width: corridor width, m, None if not known.
         end_distance: distance ahead at which the row ends, m, None if no end is in sight.
@@ -134,6 +136,7 @@ class RowObservation:
     offset_std: float | None = None
     heading_std: float | None = None
     correlation: float = 0.0
+    curvature: float = 0.0
     quality: float = 0.0
     width: float | None = None
     end_distance: float | None = None

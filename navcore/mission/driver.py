@@ -10,7 +10,7 @@ from navcore.control.prediction import ActuatorParams
 from navcore.control.speed_regulation import SpeedLimit, SpeedRegulation, SpeedRegulationParams, tightest
 from navcore.control.steering import Motion, Steering
 from navcore.control.stop_zones import StopZoneParams, StopZones
-from navcore.control.target_line import TargetLine, target_from_path
+from navcore.control.target_line import TargetLine, bent, target_from_path
 from navcore.control.tracking import TrackingParams, Way, new_tracking
 from navcore.geometry.se2 import SE2
 from navcore.messages import MissionPlan, NavMode, Point, PoseEstimate, SegmentKind
@@ -134,7 +134,7 @@ class Driver:
 
     def _target(self, pilot: Pilot, senses: Senses, now_ns: int) -> TargetLine:
         deadline_ns = self._deadline_ns(pilot, senses)
-        return target_from_path(
+        target = target_from_path(
             pilot.leg.line,
             pilot.pose,
             source=pilot.mode.value,
@@ -142,8 +142,10 @@ class Driver:
             max_age_ns=deadline_ns - now_ns,
             near_s=pilot.place.s,
             ahead=self.tracking.sight,
-            found_anew=pilot.by_scan,
+            scanned=pilot.by_scan,
         )
+        bend = pilot.anchor.bend
+        return bent(target, bend.curvature, max(bend.since(pilot.pose), 0.0)) if bend else target
 
     def _deadline_ns(self, pilot: Pilot, senses: Senses) -> int:
         """Earliest of capture + maximum age over the inputs that this mode drives on."""

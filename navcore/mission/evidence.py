@@ -24,6 +24,7 @@ class RowEvidenceParams:
         sigmas: nor may it be further off, or turned by more, than so many 1-sigma of what is expected.
         heading_gate: largest disagreement of the direction, rad: plants on a lattice stand in line crosswise too.
         width_gate: largest disagreement of its width, as a share: two rows side by side are no row.
+        max_curvature: what bends tighter is no row, 1/m.
         min_quality: 0 to 1.
         looks_s: a picture older than that shows nothing of now, s.
     """
@@ -32,6 +33,7 @@ class RowEvidenceParams:
     sigmas: float = 3.0
     heading_gate: float = 0.16
     width_gate: float = 0.3
+    max_curvature: float = 0.3
     min_quality: float = 0.15
     looks_s: float = 0.5
 
@@ -80,7 +82,8 @@ class RowEvidence:
         if not seen.in_sight or seen.offset is None or seen.heading is None:
             return False
         near = abs(-seen.offset - expected.y) <= reach[0]
-        parallel = abs(wrap(-seen.heading - expected.yaw)) <= reach[1]
+        straight = abs(seen.curvature) <= self.params.max_curvature
+        parallel = straight and abs(wrap(-seen.heading - expected.yaw)) <= reach[1]
         as_wide = seen.width is None or abs(seen.width - width) <= self.params.width_gate * width
         return near and parallel and as_wide and seen.quality >= self.params.min_quality
 

@@ -170,7 +170,7 @@ class Pilot:
             noise = look_noise(seen.offset_std or 0.05, seen.heading_std or 0.02, seen.correlation)
             if seen.source is not RowSource.CAMERA:
                 noise = noise * self.params.scanned_share
-            self.anchor.see_row(row, T_odom_drive, seen.offset, seen.heading, noise)
+            self.anchor.see_row(row, T_odom_drive, seen.offset, seen.heading, noise, seen.curvature)
             self.carried = 0.0
         if self.mode in ALONG_ROW:
             at_end = self.mode is NavMode.ROW_END
@@ -212,6 +212,7 @@ class Pilot:
             self.arrived = True
             return
         self.halt = self.leg.segments[-1].halt
+        self.anchor.straighten(self.driving_pose(at.T_odom_base))
         self.place = Place(self.place.leg + 1, 0.0)
         self.pose = self.anchor.followed @ self.driving_pose(at.T_odom_base)
         self.projection = self._project(near_s=0.0)
@@ -231,6 +232,8 @@ class Pilot:
         if reason is None:
             return None
         self.mode_reason = reason
+        if self.mode not in ON_CAMERA:
+            self.anchor.straighten(self.driving_pose(at.T_odom_base))
         self._on_switch()
         seen = self.row.agreeing
         return ModeSwitch(

@@ -45,7 +45,7 @@ def row_observation(
     lean, mount = (reading.lean, reading.mount) if reading else (None, None)
     return RowObservation(
         stamp_ns=stamp_ns, camera=name, valid=True, reason="", offset=ground.offset, heading=ground.heading,
-        offset_std=offset_std, heading_std=heading_std, correlation=correlation,
+        offset_std=offset_std, heading_std=heading_std, correlation=correlation, curvature=ground.curvature,
         quality=ground.quality, width=ground.width, end_distance=end, seen_to=seen_to,
         objects=len(ground.left_x) + len(ground.right_x), left_seen=lines.left_seen, right_seen=lines.right_seen,
         image_offset=image_offset, image_heading=image_heading, lean=lean.roll if lean else None,

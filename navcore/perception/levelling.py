@@ -28,6 +28,12 @@ def leaning_offset(offset: float, width: float, height: float, roll: float) -> f
     return (left + right) / 2
 
 
+def leaning_exactly(offset: float, width: float, height: float, roll: float) -> float:
+    """The offset that `upright_offset` makes `offset` of, to a millimetre."""
+    leaning = leaning_offset(offset, width, height, roll)
+    return leaning + offset - upright_offset(leaning, width, height, roll)
+
+
 def leaning_plants(plants: ScannedPlants, camera_height: float, roll: float, land_roll: float = 0.0) -> ScannedPlants:
     """Plants as scanned from the leaning body, where a camera on it sees their feet (m, rad).
 
@@ -38,6 +44,15 @@ def leaning_plants(plants: ScannedPlants, camera_height: float, roll: float, lan
     limit = math.radians(85.0)
     angle = np.clip(np.arctan2(beside, camera_height) - roll, -limit, limit)
     return replace(plants, xy=np.column_stack((plants.xy[:, 0], camera_height * np.tan(angle))))
+
+
+def level_plants(plants: ScannedPlants, roll: float, land_roll: float = 0.0) -> ScannedPlants:
+    """The feet of plants that were scanned from a body leaning by `roll`, on level ground below it (m, rad).
+
+    `land_roll` as in `leaning_plants`.
+    """
+    aside = plants.height * (math.tan(land_roll) + math.sin(roll))
+    return replace(plants, xy=plants.xy - (0.0, aside))
 
 
 def levelled(row: RowObservation, height: float, roll: float) -> RowObservation:

@@ -71,6 +71,7 @@ class GroundRow:
         beside: (N, 2) feet that stand on neither line, in the driving frame, m.
         carried: metres by which it is carried on without a plant in sight; 0 while it is seen.
         scanned: a 2D LiDAR told how far ahead its plants stand.
+        curvature: of the centre line beside the origin, 1/m; 0 for a straight one.
     """
 
     offset: float
@@ -84,6 +85,7 @@ class GroundRow:
     beside: Floats = field(default_factory=lambda: np.empty((0, 2)))
     carried: float = 0.0
     scanned: bool = False
+    curvature: float = 0.0
 
     def across(self, side: float, x: Floats) -> Floats:
         """y of the line on that side (+1 left, -1 right, 0 the centre line) at `x` ahead, driving frame, m."""

@@ -23,7 +23,7 @@ from navcore.perception.ground_row import GroundRowParams, ground_row
 from navcore.perception.image_lines import driving_camera, image_bisector, looks_back, published_reading
 from navcore.perception.lean_watch import LeanWatch, LeanWatchParams, Reading
 from navcore.perception.least_squares import LeastSquares
-from navcore.perception.levelling import leaning_plants
+from navcore.perception.levelling import leaning_exactly, leaning_plants, level_plants, upright_offset
 from navcore.perception.plants.bending_row import BendingRow, BendingRowParams
 from navcore.perception.plants.box_association import BoxAssociationParams, associate, corners_of, slopes
 from navcore.perception.plants.scanned_plants import ScannedPlants, no_plants
@@ -89,6 +89,7 @@ class Look(NamedTuple):
         objects: of the picture. corners: their corner points, those that count.
         plants: scanned ones. found: (N,) which of them each object is, -1 for none.
         scan: what they add to the picture, None if there are none.
+        level: (M, 4) the same plants as in `ScanEvidence`, but on the level ground.
     """
 
     fault: str
@@ -97,6 +98,7 @@ class Look(NamedTuple):
     plants: ScannedPlants
     found: NDArray[np.int64]
     scan: ScanEvidence | None
+    level: NDArray[np.float64]
 
     @property
     def source(self) -> RowSource:
@@ -142,7 +144,7 @@ class RowPerception:
         reading = self._read_lean(told, cue)
         driven = self._odometry.see(told, cue.motion, stamp_ns)
         end = self._row_end(told, cue.motion)
-        ground = self._by_scan(ground, seen.scan)
+        ground = self._by_scan(ground, seen, prior.roll if prior else 0.0)
         shown = ground if seen.scan else seen.fault or ground
         row = row_observation(
             stamp_ns, camera_name, lines, shown, end, self._seen_to(ground), published, reading, driven
@@ -166,7 +168,8 @@ class RowPerception:
         leaning = leaning_plants(plants, self._camera.z, roll, land)
         corners, used = self._corner_points(objects)
         scan = ScanEvidence(plants=leaning.evidence(), paired=found[used]) if len(plants) else None
-        return Look(fault=fault, objects=objects, corners=corners, plants=plants, found=found, scan=scan)
+        level = level_plants(plants, roll, land).evidence()
+        return Look(fault, objects, corners, plants, found, scan, level)
 
     def _read_lean(self, row: GroundRow | None, cue: RowCue) -> Reading | None:
         roll, pitch = (cue.prior.roll, cue.prior.pitch or 0.0) if cue.prior else (0.0, 0.0)
@@ -200,13 +203,20 @@ class RowPerception:
         """The corridor on the ground, or why there is none."""
         return lines.reason or lines.ground or ground_row(lines, corners, self._camera, self._params.ground)
 
-    def _by_scan(self, ground: GroundRow | str, scan: ScanEvidence | None) -> GroundRow | str:
-        """The corridor as the scanned plants on its lines tell it, who know better where its middle runs."""
-        if scan is None or isinstance(ground, str) or ground.carried:
+    def _by_scan(self, ground: GroundRow | str, seen: Look, roll: float) -> GroundRow | str:
+        """The corridor as the scanned plants on its lines tell it, who know better where its middle runs.
+
+        They are laid through as they stand on the ground: seen by a leaning camera, far lines are bent aside.
+        """
+        if seen.scan is None or isinstance(ground, str) or ground.carried:
             return ground
-        sure = scan.plants[scan.plants[:, 3] >= SURE]
-        middle = self._bending.fit(ground.offset, ground.heading, ground.width, sure)
-        return replace(ground, **middle._asdict()) if middle else ground
+        z, sure = self._camera.z, seen.level[seen.level[:, 3] >= SURE]
+        upright = upright_offset(ground.offset, ground.width, z, roll)
+        middle = self._bending.fit(upright, ground.heading, ground.width, sure)
+        if middle is None:
+            return ground
+        leaning = leaning_exactly(middle.offset, middle.width, z, roll)
+        return replace(ground, **middle._replace(offset=leaning)._asdict())
 
     def _row_end(self, row: GroundRow | None, motion: SE2 | None) -> float | None:
         """By the plants the robot got so far since the last picture, and by the wheels where no row is seen."""

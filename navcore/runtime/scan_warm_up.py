@@ -9,6 +9,7 @@ from navcore.geometry.pinhole import robot_camera
 from navcore.geometry.se2 import SE2
 from navcore.messages import CameraName, DetectedObject, ObjectKind
 from navcore.perception.detector import Told
+from navcore.perception.plants.bending_row import BendingRow
 from navcore.perception.plants.plant_tracker import PlantTracker, PlantTrackerParams
 from navcore.perception.row_lines import RowPrior
 from navcore.perception.row_perception import RowPerception, RowPerceptionParams
@@ -30,6 +31,8 @@ def warm_up() -> None:
     for plants in (None, tracker.plants()):
         for i in range(2):
             perception.process(picture, i, CameraName.FRONT, prior=prior, motion=SE2() if i else None, plants=plants)
+    row = np.array([(x, side, 0.01, 1.0) for x in range(5) for side in (2.0, -2.0)])
+    BendingRow().fit(0.0, 0.0, 4.0, row)
 
 
 if __name__ == "__main__":

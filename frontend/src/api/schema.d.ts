@@ -2787,6 +2787,8 @@ export interface components {
          *         offset: signed distance from the driving frame's origin to the centre line, m, positive if the line is left.
          *         heading: direction of the centre line in the driving frame, rad.
          *         offset_std, heading_std: 1-sigma. correlation: of both errors, in (-1, 1).
+         *         curvature: of the centre line beside the origin, 1/m, positive if it bends to the left; 0 where it is taken to
+         *             be straight, as by a camera alone.
          *         quality: 0 to 1.
          *         width: corridor width, m, None if not known.
          *         end_distance: distance ahead at which the row ends, m, None if no end is in sight.
@@ -2821,6 +2823,11 @@ export interface components {
              * @default 0
              */
             correlation: number;
+            /**
+             * Curvature
+             * @default 0
+             */
+            curvature: number;
             /** Driven */
             driven?: number | null;
             /** Driven Since Ns */

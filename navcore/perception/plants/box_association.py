@@ -38,6 +38,8 @@ class BoxAssociationParams:
         alone: half the squared distance beyond which an object has no plant.
         fewest: so many feet of plants tell the pitch; known_pitch: which is known to that share of `pitch_deg` then.
         clear: an object that another plant fits nearly as well, by less than that, is left without one.
+        together: plants that stand no further apart than that are not asked which of them it is, m: a tree and the
+            stake that it is tied to.
     """
 
     box_px: float = 1.5
@@ -54,6 +56,7 @@ class BoxAssociationParams:
     fewest: int = 4
     known_pitch: float = 0.4
     clear: float = 1.5
+    together: float = 0.2
 
 
 def associate(
@@ -67,11 +70,11 @@ def associate(
         return np.full(len(objects), -1, dtype=np.int64)
     boxes, p = corners_of(objects), params
     beside, down = _by_middle(boxes, plants, camera, pitch, p), _feet_down(boxes, camera)
-    first = _assigned(beside + _by_foot(down, plants, camera, pitch, p.pitch_deg, p), p)
+    first = _assigned(beside + _by_foot(down, plants, camera, pitch, p.pitch_deg, p), plants.xy, p)
     told = _told_pitch(down, plants, first, camera, p)
     if told is None:
         return first
-    return _assigned(beside + _by_foot(down, plants, camera, told, p.known_pitch * p.pitch_deg, p), p)
+    return _assigned(beside + _by_foot(down, plants, camera, told, p.known_pitch * p.pitch_deg, p), plants.xy, p)
 
 
 def _told_pitch(
@@ -85,7 +88,7 @@ def _told_pitch(
     return float(np.median(np.arctan(camera.z / ahead) - down[paired]))
 
 
-def _assigned(costs: Floats, params: BoxAssociationParams) -> Ints:
+def _assigned(costs: Floats, xy: Floats, params: BoxAssociationParams) -> Ints:
     """(N,) index of the plant of each object by costs (N, M), -1 for none: the likeliest of all together."""
     # Half a second to import, which processes and robots without a LiDAR need not spend at their start.
     from scipy.optimize import linear_sum_assignment
@@ -93,17 +96,16 @@ def _assigned(costs: Floats, params: BoxAssociationParams) -> Ints:
     found = np.full(len(costs), -1, dtype=np.int64)
     alone = np.full((len(costs), len(costs)), params.alone)
     rows, columns = linear_sum_assignment(np.hstack((costs, alone)))
-    taken = (columns < costs.shape[1]) & (_lead(costs)[rows] >= params.clear)
+    taken = (columns < costs.shape[1]) & (_lead(costs, xy, params.together)[rows] >= params.clear)
     found[rows[taken]] = columns[taken]
     return found
 
 
-def _lead(costs: Floats) -> Floats:
-    """(N,) by how much the plant that fits an object best does so better than the next one."""
-    if costs.shape[1] < 2:
-        return np.full(len(costs), np.inf)
-    best, next_best = np.partition(costs, 1, axis=1)[:, :2].T
-    return np.asarray(next_best - best)
+def _lead(costs: Floats, xy: Floats, together: float) -> Floats:
+    """(N,) by how much the plant that fits an object best does so better than any that stands elsewhere."""
+    best = np.argmin(costs, axis=1)
+    elsewhere = np.hypot(*(xy[best][:, None] - xy[None]).transpose(2, 0, 1)) > together
+    return np.asarray(np.min(np.where(elsewhere, costs, np.inf), axis=1) - np.min(costs, axis=1))
 
 
 def _by_middle(

@@ -10,10 +10,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from navcore.control.lateral_lqr import LateralLqr, LateralLqrParams
+from navcore.control.lqr_tracker import LqrTrackerParams
 from navcore.control.prediction import ActuatorParams, CommandHistory
 from navcore.control.side_drift import SideDrift, SideDriftParams
 from navcore.control.steering import Motion
-from navcore.control.target_line import target_from_path
+from navcore.control.target_line import bent, target_from_path
 from navcore.control.turn_slip import TurnSlip, TurnSlipParams
 from navcore.geometry.polyline import Polyline
 from navcore.geometry.se2 import SE2
@@ -85,16 +86,15 @@ def test_far_from_the_line_and_slower_than_walking_no_drift_is_learnt() -> None:
         assert drift.angle == 0.0
 
 
-def test_from_a_line_that_is_found_anew_no_drift_is_learnt_and_what_was_known_fades() -> None:
-    """It moves aside where the row bends, and the robot does not drift for that."""
-    drift = SideDrift()
-    drift.angle = 0.03
+def test_where_a_row_bends_as_it_was_seen_to_bend_no_drift_is_learnt() -> None:
+    """The robot keeps to the arc; each look lays a straight line beside it and tells how that bends."""
+    drift, way, curvature = SideDrift(), 0.02, 0.08
     for k in range(500):
-        target = target_from_path(
-            LINE, SE2(0.02 * k, 0.0005 * k, 0.0), source="row", stamp_ns=0, max_age_ns=1, found_anew=True
-        )
-        drift.update(k * TICK_NS, target, Motion(v=1.0, omega=0.0))
-    assert 0.0 < drift.angle < 0.001  # rad, after 10 m
+        since = way * (k % 10)
+        on_arc = SE2(10.0 + since, 0.5 * curvature * since**2, curvature * since)
+        target = target_from_path(LINE, on_arc, source="row", stamp_ns=0, max_age_ns=1, scanned=True)
+        drift.update(k * TICK_NS, bent(target, curvature, since), Motion(v=1.0, omega=curvature))
+    assert abs(drift.angle) < 0.001  # rad; a straight line would have taught 0.008
 
 
 def test_no_drift_beyond_the_bound_is_believed() -> None:
@@ -105,11 +105,12 @@ def test_no_drift_beyond_the_bound_is_believed() -> None:
     assert drift.angle == SideDriftParams().most
 
 
+@pytest.mark.parametrize("weights", [LqrTrackerParams().lqr, LqrTrackerParams().scanned])
 @pytest.mark.parametrize("v", [0.15, 0.4, 0.8, 1.0, 1.5, 2.0])
-def test_the_closed_loop_settles_at_every_speed(v: float) -> None:
+def test_the_closed_loop_settles_at_every_speed(v: float, weights: LateralLqrParams) -> None:
     """Eigenvalues of the model with the gains put in: all to the left, and none that swings more than it settles."""
     lag = ActuatorParams().lag
-    k = LateralLqr(LateralLqrParams(), lag).at(v)
+    k = LateralLqr(weights, lag).at(v)
     rates = np.array(((0.0, v, 0.0), (0.0, 0.0, 1.0), (0.0, 0.0, -1.0 / lag)))
     rates[2] -= np.array((k.lateral, k.heading, k.turn)) / lag
     poles = np.linalg.eigvals(rates)

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from navcore.control.pure_pursuit import PurePursuit, pursuit_point
 from navcore.control.steering import Motion
-from navcore.control.target_line import line_from_row, target_from_line, target_from_path
+from navcore.control.target_line import bent, line_from_row, target_from_line, target_from_path
 from navcore.errors import NotFiniteError
 from navcore.geometry.line2 import Line2
 from navcore.geometry.polyline import Polyline
@@ -76,3 +76,33 @@ def test_the_published_pursuit_is_clipped_and_aims_at_a_far_line_square() -> Non
     steering = PurePursuit().steer(near, Motion(v=0.8, omega=0.0), v=0.8, look_ahead=1.2, now_ns=0)
     assert steering.omega == -0.75
     assert steering.saturated
+
+
+@given(st.floats(-0.1, 0.1), st.floats(0.0, 1.0), st.floats(-0.2, 0.2), st.floats(-0.2, 0.2))
+def test_a_line_that_bends_is_the_arc_that_touches_it_where_it_was_seen(
+    curvature: float, since: float, y: float, yaw: float
+) -> None:
+    """The robot is by y left of the straight line and `since` metres past the place where the arc begins."""
+    target = target_from_path(PATH, SE2(8.0, y, yaw), source="row", stamp_ns=0, max_age_ns=1)
+    found = bent(target, curvature, since)
+    off, turned = 0.5 * curvature * since**2, curvature * since
+    assert found.lateral_error == pytest.approx((y - off) * math.cos(turned), abs=0.004)  # m
+    assert found.heading_error == pytest.approx(yaw - turned, abs=0.03)  # rad: chords of 0.1 m, and the foot's shift
+    assert found.curvature_ahead(0.3) == pytest.approx(curvature, abs=0.01)  # 1/m
+    assert found.remaining == target.remaining
+
+
+def test_beyond_what_was_seen_of_a_bend_the_line_goes_on_straight() -> None:
+    target = target_from_path(PATH, SE2(8.0, 0.0, 0.0), source="row", stamp_ns=0, max_age_ns=1)
+    found = bent(target, 0.1, 0.0)
+    assert found.curvature_ahead(3.0) == pytest.approx(0.0, abs=1e-9)
+    x, y = found.path.at(found.s + 5.0)
+    assert math.atan2(y, x - 0.75) == pytest.approx(0.15, abs=0.01)  # rad: 1.5 m of 0.1 1/m
+
+
+def test_a_line_that_does_not_bend_is_the_same_line() -> None:
+    target = target_from_path(PATH, SE2(8.0, 0.2, 0.1), source="row", stamp_ns=0, max_age_ns=1)
+    found = bent(target, 0.0, 0.3)
+    assert (found.lateral_error, found.heading_error) == pytest.approx(
+        (target.lateral_error, target.heading_error), abs=1e-9
+    )

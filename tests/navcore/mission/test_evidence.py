@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from typing import Any
 
@@ -42,11 +43,14 @@ def test_the_row_where_it_is_expected_is_the_one_that_is_meant() -> None:
         {"width": 6.0},
         {"width": 1.5},
         {"quality": 0.1},
+        {"curvature": 0.8},
+        {"curvature": -0.8},
+        {"curvature": math.nan},
         {"valid": False},
         {"carried": 1.1},
     ],
 )
-def test_a_row_elsewhere_askew_of_another_width_or_out_of_sight_is_not(other: dict[str, Any]) -> None:
+def test_a_row_elsewhere_askew_bent_of_another_width_or_out_of_sight_is_not(other: dict[str, Any]) -> None:
     assert not judged(replace(SEEN, **other))
 
 

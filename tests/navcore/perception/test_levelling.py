@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from navcore.geometry.pinhole import robot_camera, rotation_from_rpy
-from navcore.perception.levelling import leaning_offset, leaning_plants, upright_offset
+from navcore.perception.levelling import leaning_exactly, leaning_offset, leaning_plants, level_plants, upright_offset
 from navcore.perception.plants.scanned_plants import ScannedPlants
 
 HEIGHT = 0.8
@@ -22,6 +22,12 @@ def test_levelling_undoes_leaning(offset: float, roll: float) -> None:
     seen = leaning_offset(offset, 3.0, HEIGHT, roll)
     # The width is seen changed too; both directions use the true one here.
     assert upright_offset(seen, 3.0, HEIGHT, roll) == pytest.approx(offset, abs=0.03)  # m
+
+
+@given(offsets, rolls)
+def test_what_a_leaning_camera_is_told_to_have_seen_levels_to_what_was_scanned(offset: float, roll: float) -> None:
+    told = leaning_exactly(offset, 3.0, HEIGHT, roll)
+    assert upright_offset(told, 3.0, HEIGHT, roll) == pytest.approx(offset, abs=0.001)  # m
 
 
 def test_an_upright_camera_needs_no_correction() -> None:
@@ -55,3 +61,14 @@ def test_on_a_side_slope_plants_grow_upright_and_are_scanned_uphill_of_their_fee
     found = leaning_plants(scanned, HEIGHT, roll=0.0, land_roll=math.radians(slope_deg))
     assert found.xy == pytest.approx(feet, abs=1e-9)  # m
     assert abs(leaning_plants(scanned, HEIGHT, roll=0.0).xy[0, 1] - 1.2) > 0.07  # m
+
+
+@given(rolls, st.floats(-0.14, 0.14))
+def test_plants_scanned_from_a_leaning_body_are_put_back_onto_their_feet(roll: float, land_roll: float) -> None:
+    """The scan is 0.55 m above the ground: lean carries it to the right, sloping land the trunks to its left."""
+    feet, aside = np.array(((3.0, 1.2), (4.0, -4.3))), np.array((0.0, 0.55 * (math.sin(roll) + math.tan(land_roll))))
+    scanned = ScannedPlants(
+        number=np.arange(2), xy=feet + aside, std=np.full(2, 0.01),
+        diameter=np.full(2, 0.1), hits=np.full(2, 9), sureness=np.ones(2), height=0.55,
+    )  # fmt: skip
+    assert level_plants(scanned, roll, land_roll).xy == pytest.approx(feet, abs=1e-9)  # m

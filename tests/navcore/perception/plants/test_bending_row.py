@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
@@ -31,6 +31,7 @@ def fitted(seen: Floats, offset: float = 0.0, heading: float = 0.0) -> Middle:
     return found
 
 
+@settings(deadline=None)  # machine code is made ready first
 @given(st.floats(-0.2, 0.2), st.floats(-0.05, 0.05))
 def test_of_a_straight_row_it_tells_offset_and_heading(offset: float, heading: float) -> None:
     """Whatever corridor near by it starts from."""
@@ -68,6 +69,25 @@ def test_a_row_that_shifts_sideways_is_followed_where_a_straight_line_cuts_the_c
     straight = np.array([np.polyfit(p[:, 0], p[:, 1], 1)[1] for p in seen])
     assert np.abs(followed - 0.175).mean() < 0.06  # m
     assert np.abs(followed - 0.175).mean() < 0.7 * np.abs(straight - 0.175).mean()
+
+
+@pytest.mark.parametrize("curvature", [0.012, -0.012])
+def test_of_an_even_curve_it_tells_direction_and_curvature(curvature: float) -> None:
+    """Away from the middle of what is seen: the row runs askew there."""
+    seen = plants(0.5 * curvature * AHEAD**2, 0.01)
+    found = fitted(_seen_from(seen, 3.0), offset=0.05)
+    assert found.offset == pytest.approx(0.5 * curvature * 9.0, abs=0.02)  # m
+    assert found.heading == pytest.approx(3.0 * curvature, abs=0.01)  # rad
+    assert found.curvature == pytest.approx(curvature, abs=0.008)  # 1/m
+
+
+def test_in_the_middle_of_a_shift_the_row_runs_askew_and_at_its_ends_it_bends() -> None:
+    bend = np.interp(AHEAD, (-1.5, 1.5), (-0.175, 0.175))
+    at = {x: fitted(_seen_from(plants(bend, 0.01), x), heading=0.05) for x in (-1.5, 0.0, 1.5)}
+    assert at[0.0].heading == pytest.approx(0.117, abs=0.02)  # rad: 0.35 m over 3 m
+    assert abs(at[0.0].curvature) < 0.02  # 1/m
+    assert at[-1.5].curvature > 0.03
+    assert at[1.5].curvature < -0.03
 
 
 def test_the_next_lines_on_either_side_tell_how_the_row_bends() -> None:
