@@ -28,7 +28,7 @@ class WatchParams:
 
     Attributes:
         laps: (m/s, times through all rows and back) of the drives in each season of each block; those with an odd
-            number begin with the last row. 3.2 h in two blocks of 72 m and three seasons.
+            number begin with the last row. 3.3 h in two blocks of 72 m and three seasons.
     """
 
     laps: tuple[tuple[float, int], ...] = ((0.5, 2), (1.0, 3), (1.5, 6))
