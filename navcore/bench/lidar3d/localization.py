@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import tempfile
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import islice
 from pathlib import Path
 
@@ -26,6 +26,7 @@ from navcore.bench.lidar3d.bad_input import (
 )
 from navcore.bench.lidar3d.block_run import block_run
 from navcore.bench.lidar3d.error_boxes import error_boxes
+from navcore.bench.lidar3d.false_alarm_figures import false_alarm_figures
 from navcore.bench.lidar3d.fixed_point_figures import SEASONS, Drives, season_figures
 from navcore.bench.lidar3d.following import followed, led
 from navcore.bench.lidar3d.following_figures import following_figures
@@ -34,6 +35,7 @@ from navcore.bench.lidar3d.ndt_scans import NdtScanParams, ndt_scans
 from navcore.bench.lidar3d.restart_figures import Restarts, restart_figures, restart_words
 from navcore.bench.lidar3d.season_drives import SeasonCase, drive_season
 from navcore.bench.lidar3d.trust_figures import trust_figures
+from navcore.bench.lidar3d.watched_drives import Watched, WatchParams, watch, watched_cases
 from navcore.bench.side_by_side import side_by_side
 from navcore.mapping.lidar3d.map_maker import MadeMap, MapMaker
 from navcore.mapping.lidar3d.work_folder import WorkFolder
@@ -52,7 +54,7 @@ class LocalizationBenchParams:
 
     Attributes:
         blocks: each mapped once. size: of a block. rows: that are driven. drives: in each season. wrong: places put
-            wrong in all. restarts: robots switched on in each season and block.
+            wrong in all. watch: healthy drives besides. restarts: robots switched on in each season and block.
         bad, bad_drives, bad_turns: cases of bad input, drives of each, and turns of the LiDAR in each.
         followed, followed_rows, followed_scans: seasons in which the rivals follow a drive on the first block's map,
             its rows, and its scans at most.
@@ -63,6 +65,7 @@ class LocalizationBenchParams:
     rows: tuple[int, ...] = (0, 1)
     drives: int = 1
     wrong: int = 200
+    watch: WatchParams = field(default_factory=WatchParams)
     followed: tuple[Season, ...] = tuple(SEASONS)
     followed_rows: tuple[int, ...] = (0, 1)
     followed_scans: int | None = None
@@ -73,8 +76,8 @@ class LocalizationBenchParams:
 
 
 QUICK = LocalizationBenchParams(
-    blocks=1, size=BlockSize(alleys=2, length=24.0), wrong=50, followed=(Season.DORMANT,),
-    followed_rows=(0,), followed_scans=150, bad_drives=1, bad_turns=120,
+    blocks=1, size=BlockSize(alleys=2, length=24.0), wrong=50, watch=WatchParams(laps=((1.5, 1),)),
+    followed=(Season.DORMANT,), followed_rows=(0,), followed_scans=150, bad_drives=1, bad_turns=120,
     bad=tuple(case for case in CASES if not case.whole), restarts=2,
 )  # fmt: skip
 
@@ -92,6 +95,7 @@ def run_bench(params: LocalizationBenchParams, tell: Tell, processes: int = 1) -
     again: dict[Season, list[Restarts]] = {season: [] for season in SEASONS}
     driven: Drives = {season: [] for season in SEASONS}
     rivals: list[Figure] = []
+    watched: list[Watched] = []
     for number in range(params.blocks):
         block = scoring_block(number, params.size)
         tell(f"block {block.seed}: its map")
@@ -100,13 +104,21 @@ def run_bench(params: LocalizationBenchParams, tell: Tell, processes: int = 1) -
             driven[found.season] += [(block, drive) for drive in found.drives]
             again[found.season] += found.restarts
             tell(f"block {block.seed}, {SEASONS[found.season]}: {restart_words(found.restarts)}")
+        for seen in side_by_side(watch, watched_cases(block, number, made.ndt, params.rows, params.watch), processes):
+            watched.append(seen)
+            tell(f"block {block.seed}, {SEASONS[seen.season]}: watched for {seen.hours:.2f} h, {_alarms(seen)}")
         if number == 0:
             rivals += rival_figures(block, params, made, tell)
             rivals += bad_input_figures(block, params, made.ndt, tell, processes)
     figures = [f for season, drives in driven.items() for f in season_figures(SEASONS[season], drives, params.rows)]
     figures += [f for season, found in again.items() for f in restart_figures(SEASONS[season], found)]
     trust = trust_figures([placed for drives in driven.values() for _, placed in drives], params.wrong)
+    trust += false_alarm_figures(watched)
     return LocalizationScores(figures=(*figures, *trust, *rivals), boxes=error_boxes(driven, params.rows))
+
+
+def _alarms(seen: Watched) -> str:
+    return f"false alarms: {'; '.join(seen.alarms)}" if seen.alarms else "no false alarm"
 
 
 def season_cases(block: PearBlock, params: LocalizationBenchParams, own: NdtMap) -> list[SeasonCase]:

@@ -45,15 +45,25 @@ def localized_with(
     block: PearBlock, params: BlockDriveParams, ndt_map: NdtMap
 ) -> Iterator[tuple[Placed, Senses]]:  # fmt: skip
     """The same with what the robot knows by then, which goes on with the drive."""
-    rtk, fused = (Navigator(block.site.datum, NavigatorParams(), params.vehicle) for _ in range(2))
+    rtk = Navigator(block.site.datum, NavigatorParams(), params.vehicle).senses
+    for turn, match, fused in matched_turns(block, params, ndt_map, rtk):
+        yield _placed(turn, rtk, fused, match), fused
+
+
+def matched_turns(
+    block: PearBlock, params: BlockDriveParams, ndt_map: NdtMap, *beside: Senses
+) -> Iterator[tuple[DriveTurn, MapMatch, Senses]]:  # fmt: skip
+    """Turn after turn, its match, and the robot that has just heard it; those `beside` hear of no match."""
+    robot = Navigator(block.site.datum, NavigatorParams(), params.vehicle)
     matcher, localizer = CloudMatcher(params.mount.T_base_lidar()), MapLocalizer(ndt_map)
     for turn in BlockDrive(block, params):
         for part in parts_of(turn):
-            rtk.senses.take(part)
-            fused.senses.take(part)
-            matcher.hear(fused.odometry(part.now_ns))
+            for senses in (*beside, robot.senses):
+                senses.take(part)
+            matcher.hear(robot.odometry(part.now_ns))
         match = matcher.match(StampedCloud(turn.stamp_ns, turn.cloud), localizer)
-        yield _placed(turn, rtk.senses, fused.senses, match), fused.senses
+        robot.senses.take(NavInputs(now_ns=turn.stamp_ns, matches=(match,)))
+        yield turn, match, robot.senses
 
 
 def parts_of(turn: DriveTurn) -> Iterator[NavInputs]:
@@ -68,11 +78,9 @@ def parts_of(turn: DriveTurn) -> Iterator[NavInputs]:
 
 
 def _placed(turn: DriveTurn, rtk: Senses, fused: Senses, match: MapMatch) -> Placed:
-    T_odom_base = fused.filter.odom_at(match.stamp_ns)
-    fused.take(NavInputs(now_ns=turn.stamp_ns, matches=(match,)))
     return Placed(
         stamp_ns=turn.stamp_ns, truth=turn.T_map_base.se2(), rtk=_pose(rtk, turn.stamp_ns),
-        fused=_pose(fused, turn.stamp_ns), match=match, T_odom_base=T_odom_base,
+        fused=_pose(fused, turn.stamp_ns), match=match, T_odom_base=fused.filter.odom_at(match.stamp_ns),
         believed=fused.on_map.newest is match,
     )  # fmt: skip
 

@@ -1,4 +1,4 @@
-"""How soon a wrong place on the map is noticed, and how often a right one is doubted.
+"""How soon a wrong place on the map is noticed.
 
 A wrong place is a recorded drive whose matches lie aside from one moment on: scored is how soon the witnesses
 (`localization.map_watch`) take the trust from them.
@@ -13,7 +13,6 @@ from dataclasses import replace
 import numpy as np
 
 from navcore.bench.figure import Figure, share
-from navcore.bench.lidar3d.fixed_point_figures import DRIVE_SEED
 from navcore.bench.lidar3d.localization_drive import Placed
 from navcore.geometry.se2 import SE2
 from navcore.localization.lidar3d.map_watch import MapWatch
@@ -23,21 +22,16 @@ _SEED = 30_001
 
 
 def trust_figures(drives: Sequence[list[Placed]], count: int) -> list[Figure]:
-    """How soon wrong places are noticed, and how often right ones are doubted."""
+    """`count` wrong places on these drives."""
     rng = np.random.default_rng(_SEED)
     usable = [d for d in drives if sum(p.believed for p in d) > 60]
     times = [_noticed_s(usable[k % len(usable)], rng) for k in range(count)] if usable else []
-    alarms, hours = sum(map(_alarms, drives)), sum(d[-1].stamp_ns - d[0].stamp_ns for d in drives if d) / 3.6e12
     slowest = max((t for t in times if math.isfinite(t)), default=None)
     soon = sum(t <= NOTICED_S for t in times)
     return [
         share("wrong place noticed within 1.0 s", soon, len(times), seed=_SEED, at_least=1.0),
         Figure(figure="slowest to be noticed", value=slowest, unit="s", n=len(times), seed=_SEED),
-        Figure(
-            figure="false alarms an hour", value=alarms / hours if hours else None, unit="1/h", n=len(drives),
-            seed=DRIVE_SEED, target=1.0, ok=alarms <= max(1.0, hours) if hours else None,
-        ),
-    ]  # fmt: skip
+    ]
 
 
 def _noticed_s(placed: list[Placed], rng: np.random.Generator) -> float:
@@ -53,12 +47,3 @@ def _noticed_s(placed: list[Placed], rng: np.random.Generator) -> float:
         if not watch.add_match(replace(p.match, x=wrong.x, y=wrong.y, yaw=wrong.yaw), p.T_odom_base):
             return (p.stamp_ns - placed[begin].stamp_ns) * 1e-9
     return math.inf
-
-
-def _alarms(placed: list[Placed]) -> int:
-    """Times that right matches lost the trust of the wheels."""
-    watch, alarms, before = MapWatch(), 0, ""
-    for p in placed:
-        watch.add_match(p.match, p.T_odom_base)
-        alarms, before = alarms + bool(watch.reason and not before), watch.reason
-    return alarms

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections import deque
 from dataclasses import dataclass
+from itertools import pairwise
 from statistics import median
 
 from navcore.geometry.se2 import SE2
@@ -24,6 +25,7 @@ class MapWatchParams:
     Attributes:
         back_s: matches are compared with that of so long ago, s.
         jump: m, by so much two matches may differ from the way driven between them; `jump_share`: of that way.
+        slip: share of the way by which wheels may slip besides (simulated on grass: up to 0.25).
         jump_yaw: rad, the same of the direction.
         apart: m, a fixed RTK position and the match may differ by this.
         row_apart: m, by so much a row may seem to move sideways against the map.
@@ -35,6 +37,7 @@ class MapWatchParams:
     back_s: float = 0.8
     jump: float = 0.12
     jump_share: float = 0.08
+    slip: float = 0.35
     jump_yaw: float = 0.06
     apart: float = 0.3
     row_apart: float = 0.3
@@ -92,7 +95,7 @@ class MapWatch:
         if not self._matches or abs(stamp_ns - self._matches[-1][0].stamp_ns) * NS > self._p.back_s:
             return
         match, T_odom_base = self._matches[-1]
-        here = SE2(match.x, match.y, match.yaw) @ T_odom_base.inverse() @ T_odom_at
+        here = _place(match) @ T_odom_base.inverse() @ T_odom_at
         off = math.dist(here.apply_point(*antenna), (x, y))
         apart = off > self._p.apart + 3.0 * std
         self._fix.hear(f"RTK and the 3D map are {off:.1f} m apart" if apart else "")
@@ -124,10 +127,24 @@ class MapWatch:
 
     def _jumped(self, before: tuple[MapMatch, SE2], now: MapMatch, T_odom_base: SE2) -> str:
         p, (match, T_odom_before) = self._p, before
-        moved = SE2(match.x, match.y, match.yaw).inverse() @ SE2(now.x, now.y, now.yaw)
+        moved = _place(match).inverse() @ _place(now)
         driven = T_odom_before.inverse() @ T_odom_base
-        off = math.hypot(moved.x - driven.x, moved.y - driven.y)
+        way = math.hypot(driven.x, driven.y)
+        slipped = self._slipped(now, T_odom_base, p.slip * way) / way if way > 0.0 else 0.0
+        off = math.hypot(moved.x - (1.0 + slipped) * driven.x, moved.y - (1.0 + slipped) * driven.y)
         turned = abs((driven.inverse() @ moved).yaw)
-        if off > p.jump + p.jump_share * math.hypot(driven.x, driven.y):
+        if off > p.jump + p.jump_share * way:
             return f"the 3D map's place jumped {off:.1f} m against the wheels"
         return f"the 3D map's direction jumped {math.degrees(turned):.0f} deg" if turned > p.jump_yaw else ""
+
+    def _slipped(self, now: MapMatch, T_odom_base: SE2, most: float) -> float:
+        """How much farther than the wheels say all matches have gone, step by step alike, m: a jump is one step."""
+        steps = [
+            (_place(a).inverse() @ _place(b)).x - (T_odom_a.inverse() @ T_odom_b).x
+            for (a, T_odom_a), (b, T_odom_b) in pairwise((*self._matches, (now, T_odom_base)))
+        ]
+        return min(max(len(steps) * median(steps), -most), most)
+
+
+def _place(match: MapMatch) -> SE2:
+    return SE2(match.x, match.y, match.yaw)

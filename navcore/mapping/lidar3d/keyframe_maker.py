@@ -84,13 +84,13 @@ class KeyframeMaker:
         self, drive: Drive, known: Sequence[Keyframe] = (), params: KeyframeMakerParams = KeyframeMakerParams()
     ) -> None:
         self._params, self._T_base_lidar = params, drive.rig.T_base_lidar()
-        self._motion, self._tracker = Motion(params.motion), ScanTracker(params.tracker)
+        self._motion, self._tracker = Motion(params.motion), ScanTracker(self._T_base_lidar.t, params.tracker)
         self._fixes = FixPlacer(drive.datum, drive.rig.antenna, params.fixes)
         self._deskew = Deskew(self._T_base_lidar, params.deskew)
         self._waiting: deque[LidarCloud] = deque()
         self._last = known[-1] if known else None
         self._resumed_ns = -1 if self._last is None else self._last.stamp_ns
-        self._tracker.add(*known[-params.tracker.keyframes :])
+        self._tracker.add(*known[-params.tracker.keyframes - 1 :])
         self._so_far = self._fresh()
         self.turns = self.blurred = 0
 

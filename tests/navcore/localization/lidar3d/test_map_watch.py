@@ -45,6 +45,34 @@ def test_a_place_that_jumps_against_the_wheels_is_noticed_within_a_second(step: 
     assert "jumped" in watch.reason
 
 
+def slipping(k: int) -> SE2:
+    """The same robot by its wheels, which spin on the grass from the 20th match on, more and more, up to 25 %."""
+    return SE2(0.1 * k + sum(min(0.003 * (n - 19), 0.033) for n in range(20, k)), 0.0, 0.0)
+
+
+def test_wheels_that_slip_do_not_take_the_trust_from_a_right_place() -> None:
+    watch = MapWatch()
+    for k in range(60):
+        assert watch.add_match(match(k, on_map(k, RIGHT)), slipping(k)), watch.reason
+
+
+@pytest.mark.parametrize("step", [SE2(0.35, 0.0, 0.0), SE2(-0.35, 0.0, 0.0), SE2(0.0, 0.35, 0.0)])
+def test_a_place_that_jumps_while_the_wheels_slip_is_noticed_as_soon(step: SE2) -> None:
+    watch = MapWatch()
+    for k in range(40):
+        watch.add_match(match(k, on_map(k, RIGHT)), slipping(k))
+    wrong = [watch.add_match(match(k, on_map(k, RIGHT) @ step), slipping(k)) for k in range(40, 50)]
+    assert not wrong[1]
+    assert "jumped" in watch.reason
+
+
+def test_wheels_that_spin_on_the_spot_are_no_slip() -> None:
+    watch = MapWatch()
+    driven(watch, 20)
+    stuck = [watch.add_match(match(k, on_map(20, RIGHT)), odometry(k)) for k in range(20, 30)]
+    assert not stuck[-1]
+
+
 def test_matches_that_follow_the_wheels_are_believed_for_ever() -> None:
     watch = MapWatch()
     driven(watch, 500)
