@@ -86,6 +86,7 @@ class Map3dJobs:
         if process is not None:
             with suppress(ProcessLookupError):
                 process.kill()
+        self._one_thread.shutdown(wait=False)
 
     def _follow(self, run_id: str, process: subprocess.Popen[bytes]) -> None:
         said = ""

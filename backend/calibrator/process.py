@@ -9,7 +9,6 @@ from __future__ import annotations
 import argparse
 import signal
 import subprocess
-import sys
 from pathlib import Path
 
 import cv2
@@ -17,6 +16,7 @@ import msgspec
 
 from backend.calibrator.requests import CalibratorRequest
 from backend.calibrator.work import CalibratorWork
+from backend.tied import tied
 from navcore.calibration.session.session_folder import SessionFolder
 from navcore.calibration.session.state import SessionSetup
 from navcore.calibration.version_folder import VersionFolder
@@ -28,7 +28,6 @@ from navcore.transport.request import Replier
 
 NICENESS = 3
 WAIT_MS = 30
-TIED = "navcore.runtime.tied"
 BOARD = "navcore.runtime.board_process"  # the simulated board; by its name, for the station knows no simulator
 
 
@@ -83,10 +82,10 @@ def kept_in(setup: SessionSetup, versions: Path, rehearsals: Path) -> Path:
 
 def rehearse(bus: Path, setup: SessionSetup) -> subprocess.Popen[bytes]:
     """Begin to show a simulated board."""
-    command = [
-        sys.executable, "-m", TIED, BOARD, f"--bus={bus}", f"--job={setup.job}", f"--camera={setup.camera}",
+    command = tied(
+        BOARD, f"--bus={bus}", f"--job={setup.job}", f"--camera={setup.camera}",
         f"--board={msgspec.json.encode(setup.board).decode()}",
-    ]  # fmt: skip
+    )  # fmt: skip
     return subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
 
 

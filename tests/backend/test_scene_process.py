@@ -11,6 +11,7 @@ from pathlib import Path
 from backend.scene_proxy import answers
 from backend.settings import Settings
 from tests.backend.played_robot import until
+from tests.living_process import ends
 
 STATION = """
 import sys, threading
@@ -27,14 +28,6 @@ def children(process: int) -> list[int]:
     return [int(child) for task in tasks for child in (task / "children").read_text().split()]
 
 
-def is_running(process: int) -> bool:
-    try:
-        state = Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0]
-    except OSError:
-        return False
-    return state != "Z"
-
-
 def test_the_view_ends_with_its_station_even_when_that_is_killed(settings: Settings, tmp_path: Path) -> None:
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
@@ -48,6 +41,6 @@ def test_the_view_ends_with_its_station_even_when_that_is_killed(settings: Setti
             (view,) = children(station.pid)
         finally:
             station.send_signal(signal.SIGKILL)
-    assert until(lambda: not is_running(view))
+    assert ends(view)
     assert not answers(port)
     assert log.read_text() == ""  # looking whether it is there is no failure

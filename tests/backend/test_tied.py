@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
 
-DEADLINE_S = 30.0
+from tests.living_process import ends, is_running
+
 MAPPING = """
 import subprocess, sys, time
 from pathlib import Path
@@ -36,24 +36,13 @@ except subprocess.TimeoutExpired:
 """
 
 
-def lives(pid: int) -> bool:
-    try:
-        with open(f"/proc/{pid}/stat") as stat:
-            return stat.read().rpartition(")")[2].split()[0] != "Z"
-    except FileNotFoundError:
-        return False
-
-
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="the kernel tells of a parent's death on Linux only")
 def test_a_map_is_made_on_behind_its_request_and_not_behind_a_station_that_was_killed(tmp_path: Path) -> None:
     command = [sys.executable, "-c", MAPPING, str(tmp_path / "ready")]
     station = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
     assert station.stdout is not None
     mapping = int(station.stdout.readline())
-    assert lives(mapping)
+    assert is_running(mapping)
     station.kill()
     station.communicate()
-    deadline = time.monotonic() + DEADLINE_S
-    while lives(mapping):
-        assert time.monotonic() < deadline
-        time.sleep(0.02)
+    assert ends(mapping)

@@ -25,6 +25,7 @@ from navcore.transport.codec import encode
 from navcore.transport.endpoints import Endpoints
 from navcore.transport.request import Requester
 from navcore.transport.supervision import ProcessStatus, SupervisorReply, SupervisorRequest, SupervisorRequestKind
+from tests.living_process import ends
 
 DEADLINE_S = 20.0
 STATUS = SupervisorRequest(kind=SupervisorRequestKind.STATUS)
@@ -191,10 +192,7 @@ def test_processes_end_with_their_supervisor_even_when_it_is_killed(directory: P
     child = int(supervisor.stdout.readline())
     supervisor.kill()
     supervisor.communicate()
-    deadline = time.monotonic() + DEADLINE_S
-    while is_running(child):
-        assert time.monotonic() < deadline
-        time.sleep(0.02)
+    assert ends(child)
 
 
 SUPERVISOR = """
@@ -214,14 +212,6 @@ print(supervisor._children[0].status().pid, flush=True)
 while True:
     supervisor.watch()
 """
-
-
-def is_running(pid: int) -> bool:
-    try:
-        state = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0]
-    except OSError:
-        return False
-    return state != "Z"
 
 
 def test_the_table_starts_the_world_before_the_guard_and_the_station_last() -> None:
