@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,8 +31,8 @@ class LidarMount:
     yaw: float = 0.0
 
     def R_base_lidar(self) -> Floats:
-        """Rotation from the sensor's axes to `base_link`, shape (3, 3)."""
-        return rotation_from_rpy(self.roll, self.pitch, self.yaw)
+        """Rotation from the sensor's axes to `base_link`, shape (3, 3), read only."""
+        return _rotation(self.roll, self.pitch, self.yaw)
 
     def T_base_lidar(self) -> SE3:
         """From the sensor's axes and origin to `base_link`."""
@@ -39,8 +40,15 @@ class LidarMount:
 
     def ends(self, angles: Floats, distances: Floats) -> Floats:
         """Where rays in the sensor's plane end, (N, 3) in `base_link`, m."""
-        flat = np.column_stack((distances * np.cos(angles), distances * np.sin(angles), np.zeros(len(angles))))
-        return np.asarray(flat @ self.R_base_lidar().T + (self.x, self.y, self.z))
+        flat = np.column_stack((distances * np.cos(angles), distances * np.sin(angles)))
+        return np.asarray(flat @ self.R_base_lidar()[:, :2].T + (self.x, self.y, self.z))
+
+
+@lru_cache(maxsize=8)
+def _rotation(roll: float, pitch: float, yaw: float) -> Floats:
+    R = rotation_from_rpy(roll, pitch, yaw)
+    R.setflags(write=False)
+    return R
 
 
 def robot_lidar() -> LidarMount:

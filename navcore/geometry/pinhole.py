@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -55,8 +56,8 @@ class PinholeCamera:
     yaw: float = 0.0
 
     def R_base_camera(self) -> Floats:
-        """Rotation from optical axes to `base_link`, shape (3, 3)."""
-        return np.asarray(rotation_from_rpy(self.roll, self.pitch, self.yaw) @ R_BASE_OPTICAL)
+        """Rotation from optical axes to `base_link`, shape (3, 3), read only."""
+        return _R_base_camera(self.roll, self.pitch, self.yaw)
 
     def project(self, points_base: Floats) -> Floats:
         """Pixels (N, 2) of points (N, 3) in `base_link`; NaN where a point is not in front of the camera."""
@@ -75,6 +76,13 @@ class PinholeCamera:
         d = self.rays(pixels)
         scale = np.where(d[:, 2] < -1e-6, -self.z / np.minimum(d[:, 2], -1e-6), np.nan)
         return np.column_stack((self.x + scale * d[:, 0], self.y + scale * d[:, 1]))
+
+
+@lru_cache(maxsize=64)  # asked for a dozen times a picture
+def _R_base_camera(roll: float, pitch: float, yaw: float) -> Floats:
+    R = rotation_from_rpy(roll, pitch, yaw) @ R_BASE_OPTICAL
+    R.setflags(write=False)
+    return np.asarray(R)
 
 
 def robot_camera(*, rear: bool = False, width_px: int = 640, height_px: int = 360) -> PinholeCamera:

@@ -23,7 +23,7 @@ from navcore.perception.corner_points import CornerPoints
 from navcore.perception.image_lines import image_line
 from navcore.perception.lean_watch import Reading
 from navcore.perception.plants.scanned_plants import ScannedPlants
-from navcore.perception.row_bands import row_band
+from navcore.perception.row_bands import row_bands
 from navcore.perception.row_lines import GroundRow, RowLines
 from navcore.perception.row_odometry import Driven
 
@@ -83,21 +83,23 @@ def camera_view(
     shown = None if isinstance(ground, str) or not row.valid else ground
     left, right = (lines.left, lines.right) if shown else (None, None)
     centre = image_line(camera, offset=shown.offset, heading=shown.heading, pitch=shown.pitch) if shown else None
+    left_band, right_band = row_bands(camera, shown) if shown else (None, None)
     pitch = shown.pitch if shown else 0.0
     return CameraView(
         stamp_ns=row.stamp_ns, camera=row.camera, width_px=camera.width_px, height_px=camera.height_px,
         objects=objects, points=_points(corners, lines), left=_segment(left, camera, pitch),
         right=_segment(right, camera, pitch), centre=_segment(centre, camera, pitch), row=row, latency_ms=latency_ms,
         bisector=_segment(bisector if shown else None, camera, pitch), region=region,
-        left_band=row_band(camera, shown, 1.0) if shown else None,
-        right_band=row_band(camera, shown, -1.0) if shown else None,
+        left_band=left_band, right_band=right_band,
     )  # fmt: skip
 
 
 def _points(corners: CornerPoints, lines: RowLines) -> tuple[ImagePoint, ...]:
     return tuple(
-        ImagePoint(u=float(u), v=float(v), side="left" if on_left else "right", kept=bool(kept))
-        for (u, v), on_left, kept in zip(corners.points, lines.on_left, lines.kept, strict=True)
+        ImagePoint(u=u, v=v, side="left" if on_left else "right", kept=kept)
+        for (u, v), on_left, kept in zip(
+            corners.points.tolist(), lines.on_left.tolist(), lines.kept.tolist(), strict=True
+        )
     )
 
 

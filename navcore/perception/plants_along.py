@@ -18,10 +18,12 @@ class PlantsAlong:
 
     def nearest(self, left: bool, along: float, gate: float) -> int | None:
         """Number of that side's plant which stands there, None if none does within `gate` m."""
-        newest = range(max(0, len(self.along) - RECENT), len(self.along))
-        near = [(abs(self.along[i] - along), i) for i in newest if self._left[i] is left]
-        off, i = min(near, default=(math.inf, -1))
-        return i if off <= gate else None
+        found, apart = None, math.inf
+        for i in range(max(0, len(self.along) - RECENT), len(self.along)):
+            off = abs(self.along[i] - along)
+            if off < apart and off <= gate and self._left[i] is left:
+                found, apart = i, off
+        return found
 
     def add(self, left: bool, along: float) -> int:
         """Number of a new plant."""

@@ -21,15 +21,16 @@ SIGMAS = 2.0
 ROWS = 8
 
 
-def row_band(camera: PinholeCamera, row: GroundRow, side: float) -> ImageArea:
-    """Where the line of plants on that side (+1 left, -1 right, 0: the centre line) lies with 95 %."""
+def row_bands(camera: PinholeCamera, row: GroundRow) -> tuple[ImageArea, ImageArea]:
+    """Where the lines of plants on the left and on the right lie with 95 %."""
     seen = replace(camera, pitch=camera.pitch + row.pitch)
     x = _ahead(seen)
-    across = row.across(side, x)
     C = row.covariance
-    std = np.sqrt(np.maximum(C[0, 0] + 2.0 * x * C[0, 1] + x**2 * C[1, 1], 0.0))
-    left, right = (_pixels(seen, x, across + sign * SIGMAS * std) for sign in (1.0, -1.0))
-    return _area(np.concatenate((left, right[::-1])))
+    wide = SIGMAS * np.sqrt(np.maximum(C[0, 0] + 2.0 * x * C[0, 1] + x**2 * C[1, 1], 0.0))
+    edges = [edge for y in (row.across(1.0, x), row.across(-1.0, x)) for edge in (y + wide, (y - wide)[::-1])]
+    there_and_back = np.tile(np.concatenate((x, x[::-1])), 2)
+    pixels = seen.project(np.column_stack((there_and_back, np.concatenate(edges), np.zeros(4 * len(x)))))
+    return _area(pixels[: 2 * len(x)]), _area(pixels[2 * len(x) :])
 
 
 def filter_region(params: GeometricFilterParams, *, width_px: int, height_px: int) -> ImageArea:
@@ -56,11 +57,7 @@ def _ahead(camera: PinholeCamera) -> Floats:
     return np.asarray(x[np.isfinite(x)], dtype=np.float64)
 
 
-def _pixels(camera: PinholeCamera, x: Floats, y: Floats) -> Floats:
-    return camera.project(np.column_stack((x, y, np.zeros(len(x)))))
-
-
 def _area(pixels: Floats) -> ImageArea:
     """To a tenth of a pixel: it travels with every picture."""
     shown = np.round(pixels[np.isfinite(pixels).all(axis=1)], 1)
-    return ImageArea(points=tuple((float(u), float(v)) for u, v in shown))
+    return ImageArea(points=tuple(zip(*shown.T.tolist(), strict=True)))

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from statistics import median
 from typing import NamedTuple
-
-import numpy as np
 
 from navcore.geometry.se2 import SE2
 from navcore.perception.plants_along import PlantsAlong
@@ -106,7 +105,7 @@ class RowOdometry:
         """By how much the marks seem to stand further along than they do, m: 0 where there are too few."""
         found = [(foot.along, self._plants.nearest(*foot, self._params.gate)) for foot in feet]
         known = [along - self._plants.along[i] for along, i in found if i is not None and self._known(i)]
-        return float(np.median(known)) if len(known) >= self._params.least else 0.0
+        return median(known) if len(known) >= self._params.least else 0.0
 
     def _learn(self, beyond: float, told: float) -> None:
         """What the wheels tell too much goes on: the ground is wet for metres."""

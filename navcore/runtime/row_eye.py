@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from navcore.geometry.pinhole import PinholeCamera
 from navcore.geometry.se2 import SE2
@@ -101,10 +102,7 @@ class RowEye:
         ends = self._scan_eye.ends(view.stamp_ns, self._trail) * (turned, turned, 1.0)
         pixels = mount.project(ends)
         inside = np.all((pixels >= 0.0) & (pixels < (mount.width_px, mount.height_px)), axis=1)
-        return replace(
-            view, scan=tuple(map(tuple, np.round(pixels[inside], 1).tolist())),
-            ends=tuple(map(tuple, np.round(ends[:, :2], 2).tolist())),
-        )  # fmt: skip
+        return replace(view, scan=_pairs(pixels[inside], 1), ends=_pairs(ends[:, :2], 2))
 
     def _tell(self, view: CameraView, plants: ScannedPlants | None, camera: PinholeCamera) -> None:
         """What the picture makes of the plants, if there is one."""
@@ -145,6 +143,11 @@ def _is_another_row(seen: RowObservation, prior: RowPrior | None) -> bool:
     if prior is None or not seen.valid or seen.offset is None:
         return False
     return abs(seen.offset - prior.offset) > WRONG_ROW * (prior.width or USUAL_WIDTH)
+
+
+def _pairs(points: NDArray[np.float64], digits: int) -> tuple[tuple[float, float], ...]:
+    """Points (N, 2), rounded, for a message."""
+    return tuple(zip(*np.round(points, digits).T.tolist(), strict=True))
 
 
 def _odom(request: CameraRequest) -> SE2:

@@ -175,7 +175,7 @@ def _from_afar(tally: _Tally, seed: int) -> list[Figure]:
         pairs = _of(tally, FAR, Season.DORMANT, name)
         figures.append(
             share(f"right from 0.6 m and 10 deg, winter, {name}", sum(_right(*pair) for pair in pairs), len(pairs),
-                  seed=seed, at_least=1.0 if name in (OURS, OURS_WIDE) else None)
+                  seed=seed, at_least=1.0 if name == OURS_WIDE else None)
         )  # fmt: skip
     return figures
 

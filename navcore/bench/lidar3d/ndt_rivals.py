@@ -16,11 +16,10 @@ from numpy.typing import NDArray
 from navcore.bench.lidar3d.ndt_scans import NdtScans, PlacedScan
 from navcore.geometry.se3 import SE3
 from navcore.geometry.voxel_means import voxel_means
-from navcore.localization.ndt.ndt_matcher import NdtMatcher, NdtMatcherParams
+from navcore.localization.ndt.ndt_matcher import WIDE_MATCH, NdtMatcher
 from navcore.localization.ndt.published_ndt import PublishedNdt
 from navcore.localization.ndt.registration import Registration
 from navcore.localization.ndt.scan_follower import ScanFollower
-from navcore.localization.ndt.start_search import WIDE_SEARCH
 from navcore.maps.ndt.ndt_map import NdtMap
 
 Floats = NDArray[np.float64]
@@ -66,7 +65,7 @@ def started(scans: NdtScans, off: float, turned: float, seed: int) -> list[Case]
 
 def rivals(scans: NdtScans) -> dict[str, Rival]:
     """Those that can be measured here, on one thread each."""
-    wide = NdtMatcher(scans.ndt_map, NdtMatcherParams(search=WIDE_SEARCH))
+    wide = NdtMatcher(scans.ndt_map, WIDE_MATCH)
     own: dict[str, Rival] = {
         OURS: partial(_ours, NdtMatcher(scans.ndt_map)),
         OURS_WIDE: partial(_ours, wide),

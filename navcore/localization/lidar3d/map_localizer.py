@@ -20,11 +20,10 @@ from navcore.geometry.voxel_means import voxel_means
 from navcore.localization.lidar3d.map_start import MapStart, MapStartParams, StartLook
 from navcore.localization.lidar3d.placed_base import PlacedBase, std_of, told_match
 from navcore.localization.lidar3d.standing_uprights import StandingUprights
-from navcore.localization.ndt.ndt_matcher import NdtMatcher, NdtMatcherParams
+from navcore.localization.ndt.ndt_matcher import WIDE_MATCH, NdtMatcher, NdtMatcherParams
 from navcore.localization.ndt.place_search import Region
 from navcore.localization.ndt.registration import Registration
 from navcore.localization.ndt.scan_follower import ScanFollower, ScanFollowerParams
-from navcore.localization.ndt.start_search import WIDE_SEARCH
 from navcore.maps.ndt.ground_height import ground_height
 from navcore.maps.ndt.ndt_map import NdtMap
 from navcore.messages import FixQuality, MapMatch, MatchState, Odometry, PoseEstimate
@@ -56,8 +55,11 @@ class MapLocalizerParams:
     voxel: float = 0.4
     tracking: ScanFollowerParams = field(default_factory=ScanFollowerParams)
     starting: NdtMatcherParams = field(
-        default_factory=lambda: NdtMatcherParams(
-            search=replace(WIDE_SEARCH, reach=1.6, turn=math.radians(32.0)), guess_std=1.5, guess_turn_std=0.5
+        default_factory=lambda: replace(
+            WIDE_MATCH,
+            guess_std=1.5,
+            guess_turn_std=0.5,
+            search=replace(WIDE_MATCH.search, reach=1.6, turn=math.radians(32.0), candidates=40),
         )
     )
     sure_std: float = 0.25

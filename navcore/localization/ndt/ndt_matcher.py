@@ -18,7 +18,7 @@ from navcore.geometry.se3 import SE3
 from navcore.localization.ndt.descent import descend
 from navcore.localization.ndt.match_kernels import weight_sum
 from navcore.localization.ndt.registration import Floats, Registration
-from navcore.localization.ndt.start_search import StartSearchParams, best_starts
+from navcore.localization.ndt.start_search import WIDE_SEARCH, StartSearchParams, best_starts
 from navcore.localization.ndt.uncertainty import UncertaintyParams, covariance_of, held, weak_directions
 from navcore.maps.ndt.ndt_map import NdtMap
 
@@ -76,6 +76,10 @@ class NdtMatcherParams:
     uncertainty: UncertaintyParams = field(default_factory=UncertaintyParams)
 
 
+# From a guess that is decimetres off: the starts stand so close that none needs the coarsest cells.
+WIDE_MATCH = NdtMatcherParams(search=WIDE_SEARCH, stages=_STAGES[1:])
+
+
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class _Descent:
     """What a stage came to; `grid` is the one it used, `moved` its last step over what is enough."""
@@ -89,11 +93,11 @@ class _Descent:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class _Approach:
-    """A start that was followed as far as the last stage; `finest` is the finest grid that is not too thin."""
+class _Way:
+    """A start that was followed to its end; `steps` of all stages together."""
 
     pose: Floats
-    finest: int
+    last: _Descent
     steps: int
 
 
@@ -120,10 +124,9 @@ class NdtMatcher:
     def _matched(self, points: Floats, guess: SE3, start: Floats) -> Registration:
         p, grids = self._params, self._map.grids
         cells = grids[min(p.search.grid, len(grids) - 1)].cells()
-        tried = [self._approach(points, start, pose) for pose in best_starts(points, start, cells, p.search)]
+        tried = [self._followed(points, start, pose) for pose in best_starts(points, start, cells, p.search)]
         best = max(tried, key=lambda way: self._score(points, way)) if len(tried) > 1 else tried[0]
-        last = self._descend(points, p.stages[-1], start, best.pose, best.finest)
-        steps = sum(way.steps for way in tried) + last.steps
+        last, steps = best.last, sum(way.steps for way in tried)
         if last.overlap < p.least_overlap:
             why = f"Only {last.overlap:.0%} of the scan's points lie where the map has any."
             return self._unknown(guess, why, steps)
@@ -136,16 +139,14 @@ class NdtMatcher:
             reason=None if last.moved < _SETTLED else f"The match did not come to rest within {last.steps} steps.",
         )  # fmt: skip
 
-    def _approach(self, points: Floats, start: Floats, pose: Floats) -> _Approach:
-        """All stages but the last."""
-        steps, finest = 0, len(self._map.grids) - 1
-        for stage in self._params.stages[:-1]:
-            done = self._descend(points, stage, start, pose, finest)
-            steps = steps + done.steps
-            finest = done.grid if done.grid < stage.grid else finest
-        return _Approach(pose=pose, finest=finest, steps=steps)
+    def _followed(self, points: Floats, start: Floats, pose: Floats) -> _Way:
+        finest, done = len(self._map.grids) - 1, list[_Descent]()
+        for stage in self._params.stages:
+            done.append(self._descend(points, stage, start, pose, finest))
+            finest = done[-1].grid if done[-1].grid < stage.grid else finest
+        return _Way(pose=pose, last=done[-1], steps=sum(stage.steps for stage in done))
 
-    def _score(self, points: Floats, way: _Approach) -> float:
+    def _score(self, points: Floats, way: _Way) -> float:
         R, t = np.ascontiguousarray(way.pose[:, :3]), way.pose[:, 3]
         return float(weight_sum(points, 1, R, t, self._map.grids[-1].cells(), _JUDGED_STEEPNESS))
 

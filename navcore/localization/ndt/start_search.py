@@ -24,8 +24,8 @@ class StartSearchParams:
         steepness: of the score, see `weight_sum`.
         doubt: share of its score that the furthest place loses, and the furthest heading, 0 to 1: where all places
             look alike, as along a smooth corridor, the guess stays.
-        candidates: so many starts are followed at most, at least 1; those that score `close` times the best, 0 to 1.
-            Only the finest cells tell them apart where leaves hide what the map knows.
+        candidates: so many starts are followed, at least 1: only the finest cells tell them apart where leaves hide
+            what the map knows.
     """
 
     reach: float = 0.8
@@ -37,28 +37,25 @@ class StartSearchParams:
     steepness: float = 0.3
     doubt: float = 0.05
     candidates: int = 1
-    close: float = 0.9
 
 
-# For a start or a restart: slower, and right in full leaf more often than the default.
-WIDE_SEARCH = StartSearchParams(grid=1, points=500, steepness=0.1, candidates=4)
+# For a start or a restart: twenty times slower, and right in full leaf too. So dense that each way down is short.
+WIDE_SEARCH = StartSearchParams(
+    grid=1, points=500, steepness=0.1, step=0.2, turn_step=math.radians(3.0), candidates=20
+)  # fmt: skip
 
 
 def best_starts(points: Floats, guess: Floats, cells: Cells, params: StartSearchParams) -> list[Floats]:
-    """Poses (3, 4), the best first, no two of them neighbours."""
+    """Poses (3, 4), the best first."""
     p = params
     shifts, turns = _shifts(p.reach, p.step), _turns(p.turn, p.turn_step)
     if len(shifts) * len(turns) == 1:
         return [guess.copy()]
     stride = max(1, len(points) // p.points)
     scores = _scores(points, stride, guess, cells, p.steepness, shifts, turns) * _kept(shifts, turns, p.doubt)
-    least, found = p.close * scores.max(), list[Floats]()
-    while len(found) < p.candidates and (not found or scores.max() > max(least, 0.0)):
-        m, n = divmod(int(scores.argmax()), len(shifts))
-        found.append(_moved(guess, shifts[n], float(turns[m])))
-        beside = np.hypot(*(shifts - shifts[n]).T) < 1.1 * p.step
-        scores[np.ix_(np.abs(turns - turns[m]) < 1.1 * p.turn_step, beside)] = -1.0
-    return found
+    best = np.argsort(-scores, axis=None, kind="stable")[: p.candidates]
+    found = (divmod(i, len(shifts)) for i in best.tolist())
+    return [_moved(guess, shifts[n], float(turns[m])) for m, n in found]
 
 
 def _moved(guess: Floats, shift: Floats, turn: float) -> Floats:

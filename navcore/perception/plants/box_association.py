@@ -66,9 +66,17 @@ def associate(
     """(N,) index of the plant that each object is, -1 for none. `plants` are in the frame of `camera`'s mount, and
     `pitch` is by how much further down than its mount the camera looks, rad.
     """
-    if not objects or not len(plants):
+    x, y = (plants.xy - (camera.x, camera.y)).T
+    in_reach = np.flatnonzero((x >= 0.3) & (np.hypot(x, y) <= params.reach))
+    if not objects or not len(in_reach):
         return np.full(len(objects), -1, dtype=np.int64)
-    boxes, p = corners_of(objects), params
+    found = _in_reach(corners_of(objects), plants.only(in_reach), camera, pitch, params)
+    return np.where(found < 0, -1, in_reach[found])
+
+
+def _in_reach(
+    boxes: Floats, plants: ScannedPlants, camera: PinholeCamera, pitch: float, p: BoxAssociationParams
+) -> Ints:  # fmt: skip
     beside, down = _by_middle(boxes, plants, camera, pitch, p), _feet_down(boxes, camera)
     first = _assigned(beside + _by_foot(down, plants, camera, pitch, p.pitch_deg, p), plants.xy, p)
     told = _told_pitch(down, plants, first, camera, p)
@@ -84,7 +92,7 @@ def _told_pitch(
     paired = np.flatnonzero((found >= 0) & np.isfinite(down))
     if len(paired) < p.fewest:
         return None
-    ahead = np.maximum(plants.xy[found[paired], 0] - camera.x, 0.3)
+    ahead = plants.xy[found[paired], 0] - camera.x
     return float(np.median(np.arctan(camera.z / ahead) - down[paired]))
 
 
@@ -104,7 +112,8 @@ def _assigned(costs: Floats, xy: Floats, params: BoxAssociationParams) -> Ints:
 def _lead(costs: Floats, xy: Floats, together: float) -> Floats:
     """(N,) by how much the plant that fits an object best does so better than any that stands elsewhere."""
     best = np.argmin(costs, axis=1)
-    elsewhere = np.hypot(*(xy[best][:, None] - xy[None]).transpose(2, 0, 1)) > together
+    x, y = xy.T
+    elsewhere = np.hypot(x[best][:, None] - x[None], y[best][:, None] - y[None]) > together
     return np.asarray(np.min(np.where(elsewhere, costs, np.inf), axis=1) - np.min(costs, axis=1))
 
 
@@ -112,10 +121,9 @@ def _by_middle(
     boxes: Floats, plants: ScannedPlants, camera: PinholeCamera, pitch: float, p: BoxAssociationParams
 ) -> Floats:
     """(N, M) half the squared distances, in 1-sigmas, between the middles and widths of boxes (N, 4) and plants, and
-    what counts against the plants; more than `alone` out of reach.
+    what counts against the plants.
     """
-    x, y = (plants.xy - (camera.x, camera.y)).T
-    ahead = np.maximum(x, 0.3)
+    ahead, y = (plants.xy - (camera.x, camera.y)).T
     scale = camera.width_px / 640 / camera.fx
     across = slopes(boxes, camera, pitch)[:, None] - (y / ahead)[None]
     across_std = np.sqrt(
@@ -125,8 +133,7 @@ def _by_middle(
     size = np.log(((boxes[:, 2] - boxes[:, 0]) / camera.fx)[:, None] / told_size[None])
     total = (across / across_std[None]) ** 2 + ((size - p.wider) / p.size) ** 2
     doubt = np.minimum(-np.log(np.maximum(plants.sureness, 1e-6)), p.sureness)
-    out_of_reach = (x < 0.3) | (np.hypot(x, y) > p.reach)
-    return np.where(out_of_reach[None], 2.0 * p.alone + 1.0, 0.5 * total + doubt[None])
+    return np.asarray(0.5 * total + doubt[None])
 
 
 def _feet_down(boxes: Floats, camera: PinholeCamera) -> Floats:
@@ -145,7 +152,7 @@ def _by_foot(
     p: BoxAssociationParams,
 ) -> Floats:
     """(N, M) half the squared distances between where feet are seen and those of plants stand; 0 where not seen."""
-    told = camera.z / np.maximum(plants.xy[:, 0] - camera.x, 0.3)
+    told = camera.z / (plants.xy[:, 0] - camera.x)
     scale = camera.width_px / 640 / camera.fx
     std = np.sqrt((p.foot_px * scale) ** 2 + math.radians(pitch_deg) ** 2 + (p.range_share * told) ** 2)
     off = (np.tan(down + pitch)[:, None] - told[None]) / std[None]

@@ -7,6 +7,7 @@ the camera tells in time.
 
 from __future__ import annotations
 
+from collections.abc import Set
 from dataclasses import dataclass
 
 import numpy as np
@@ -87,10 +88,11 @@ class PlantTracker:
             sureness=self._evidence.sureness()[seen], height=now.height,
         )  # fmt: skip
 
-    def told_by_camera(self, boxed: Ints, blank: Ints) -> None:
+    def told_by_camera(self, boxed: Set[int], blank: Set[int]) -> None:
         """Numbers of the plants that a picture shows as trunks or posts, and of those that it should and does not."""
-        numbers = self._plants.number
-        self._evidence.see(np.isin(numbers, boxed), np.isin(numbers, blank))
+        numbers = self._plants.number.tolist()
+        shown, missed = (np.array([n in told for n in numbers], dtype=np.bool_) for told in (boxed, blank))
+        self._evidence.see(shown, missed)
 
     def _in_base(self, trunks: ScanTrunks, turn: SE2) -> Floats:
         """Centres (K, 2) in `base_link` at the scan's stamp: what was met earlier was met from further back."""
@@ -107,7 +109,8 @@ class PlantTracker:
         self._since_hit[theirs] = 0
         self._blend(xy[mine], std[mine], theirs)
         self._thicken(trunks, mine, theirs)
-        new = np.setdiff1d(np.arange(len(xy)), mine)
+        new = np.ones(len(xy), dtype=np.bool_)
+        new[mine] = False
         self._add(xy[new], std[new], trunks.diameter[new], _weight(trunks)[new])
         self._evidence.met(theirs, trunks.diameter[mine], trunks.roughness[mine], trunks.cut[mine])
         self._evidence.add(trunks.diameter[new], trunks.roughness[new], trunks.cut[new])

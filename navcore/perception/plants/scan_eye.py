@@ -55,9 +55,10 @@ class ScanEye:
             self.forget()
             return
         angles, distances = np.asarray(scan.angles), np.asarray(scan.distances)
-        self.problem = "" if np.any(distances > 0.0) else "the LiDAR sees nothing at all: is it covered?"
+        back = distances > 0.0
+        self.problem = "" if back.any() else "the LiDAR sees nothing at all: is it covered?"
         motion = self._last[1].inverse() @ now if self._last else SE2()
-        self._ends = self.mount.ends(angles, distances)[distances > 0.0]
+        self._ends = self.mount.ends(angles[back], distances[back])
         self._tracker.see(self._clusters.find(angles, distances), motion, began.inverse() @ now)
         self._last = scan.stamp_ns, now
 
@@ -80,5 +81,5 @@ class ScanEye:
 
     def told(self, view: CameraView, expected: NDArray[np.int64]) -> None:
         """What a picture makes of the plants: which it shows, and which it does not of those `expected` (numbers)."""
-        boxed = np.array([p.number for p in view.plants if p.object is not None], dtype=np.int64)
-        self._tracker.told_by_camera(boxed, np.setdiff1d(expected, boxed))
+        boxed = {p.number for p in view.plants if p.object is not None}
+        self._tracker.told_by_camera(boxed, set(expected.tolist()) - boxed)

@@ -41,11 +41,11 @@ class ScannedPlants:
         """The same in another frame."""
         return replace(self, xy=T_target_source.apply(self.xy))
 
-    def only(self, mask: NDArray[np.bool_]) -> ScannedPlants:
-        """Those for which `mask` (N,) is True."""
+    def only(self, some: NDArray[np.bool_] | NDArray[np.int64]) -> ScannedPlants:
+        """Those for which a mask (N,) is True, or whose indices (K,) are given."""
         return ScannedPlants(
-            number=self.number[mask], xy=self.xy[mask], std=self.std[mask], diameter=self.diameter[mask],
-            hits=self.hits[mask], sureness=self.sureness[mask], height=self.height,
+            number=self.number[some], xy=self.xy[some], std=self.std[some], diameter=self.diameter[some],
+            hits=self.hits[some], sureness=self.sureness[some], height=self.height,
         )  # fmt: skip
 
     def evidence(self) -> Floats:

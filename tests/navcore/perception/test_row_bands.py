@@ -12,7 +12,7 @@ from navcore.geometry.pinhole import robot_camera
 from navcore.messages import ImageArea
 from navcore.perception.geometric_filter import GeometricFilterParams, geometric_filter
 from navcore.perception.image_lines import image_line
-from navcore.perception.row_bands import filter_region, row_band
+from navcore.perception.row_bands import filter_region, row_bands
 from navcore.perception.row_lines import GroundRow
 
 CAMERA = robot_camera()
@@ -33,7 +33,7 @@ def holds(area: ImageArea, u: float, v: float) -> bool:
 
 @pytest.mark.parametrize(("side", "v"), [(1.0, 230.0), (1.0, 180.0), (-1.0, 230.0), (-1.0, 180.0)])
 def test_a_band_holds_19_of_20_rows_that_are_so_uncertain(side: float, v: float) -> None:
-    rng, band = np.random.default_rng(2), row_band(CAMERA, row(), side)
+    rng, band = np.random.default_rng(2), row_bands(CAMERA, row())[side < 0.0]
     drawn = rng.multivariate_normal((0.1, 0.03), COVARIANCE, 2000)
     lines = [
         image_line(
@@ -46,7 +46,7 @@ def test_a_band_holds_19_of_20_rows_that_are_so_uncertain(side: float, v: float)
 
 
 def test_a_row_known_exactly_has_a_band_as_thin_as_its_line() -> None:
-    band = row_band(CAMERA, row(np.zeros((2, 2))), 1.0)
+    band, _ = row_bands(CAMERA, row(np.zeros((2, 2))))
     line = image_line(CAMERA, offset=0.1 + 1.5, heading=0.03, pitch=0.01)
     assert all(abs(line.distance(u, v)) < 1.0 for u, v in band.points if v < 300.0)  # px
 

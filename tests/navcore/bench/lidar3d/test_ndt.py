@@ -39,7 +39,7 @@ def figures() -> dict[str, Figure]:
 
 def test_time_error_and_reach_are_judged_beside_the_others() -> None:
     found = figures()
-    ours = found["right from 0.6 m and 10 deg, winter, ours"]
+    ours = found["right from 0.6 m and 10 deg, winter, ours, wide search"]
     assert (ours.value, ours.n, ours.ok) == (1.0, 3, True)
     error = found["median error in winter, ours"].value
     assert error is not None
