@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import json
+import math
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -22,11 +23,17 @@ def lines(figures: tuple[Figure, ...], commit: str, machine: str) -> str:
 
 
 def _row(f: Figure) -> str:
-    value = "-" if f.value is None else f"{f.value:.3f}"
-    interval = "" if f.low is None or f.high is None else f" [{f.low:.3f}, {f.high:.3f}]"
+    value = "-" if f.value is None else _shown(f.value)
+    interval = "" if f.low is None or f.high is None else f" [{_shown(f.low)}, {_shown(f.high)}]"
     asides = [
         f"{name} {number:g}" for name, number in (("paper", f.paper), ("baseline", f.baseline), ("target", f.target))
         if number is not None
     ]  # fmt: skip
     verdict = "" if f.ok is None else "ok" if f.ok else "MISSED"
     return f"{f.figure:<60} {value + interval:>24} {f.unit:<6} n={f.n:<4} {', '.join(asides):<36} {verdict}"
+
+
+def _shown(number: float) -> str:
+    """To a thousandth, and small ones to three digits: 0.3 mm are not nothing."""
+    size = math.floor(math.log10(abs(number))) if number else 0
+    return f"{number:.{min(max(3, 2 - size), 9)}f}"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from itertools import chain as joined
+from statistics import median
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +21,7 @@ Floats = NDArray[np.float64]
 WITHIN_M = 0.10
 WANTED = Tracking(0.020, 0.025, 0.995)
 WANTED_FOUND, WANTED_WRONG, WANTED_THICKNESS_M = 0.98, 0.01, 0.01
+WANTED_LOOK_MS = 3.0
 PAPER = {
     Chain.OURS: paper_b.FUSED, Chain.PUBLISHED: paper_b.FUSED, Chain.LIDAR: paper_b.LIDAR_RANSAC,
     Chain.VISION: paper_b.VISION_RANSAC, Chain.SEGMENTATION: paper_b.SEGMENTATION,
@@ -33,7 +35,8 @@ def drive_figures(results: tuple[SegmentResult, ...]) -> tuple[Figure, ...]:
     by_chain = {c: [r for r in results if r.case.chain is c] for c in Chain}
     tracked = {c: tracking(r.off for r in found) for c, found in by_chain.items() if found}
     lines = [f for c in tracked for f in _lateral(c, tracked[c], tracked.get(Chain.PUBLISHED), by_chain[c], seed)]
-    return (*lines, *_as_planted(by_chain[Chain.OURS], seed), *_tree_figures(by_chain[Chain.OURS], seed))
+    ours = by_chain[Chain.OURS]
+    return (*lines, *_as_planted(ours, seed), *_tree_figures(ours, seed), *_look_time(ours, seed))
 
 
 def tracking(deviations: Iterable[tuple[float | None, ...]]) -> Tracking:
@@ -91,6 +94,19 @@ def _tree_figures(results: list[SegmentResult], seed: int | None) -> list[Figure
                n=len(errors), seed=seed, target=WANTED_THICKNESS_M,
                ok=None if thickness is None else thickness <= WANTED_THICKNESS_M),
     ]  # fmt: skip
+
+
+def _look_time(results: list[SegmentResult], seed: int | None) -> list[Figure]:
+    """The drives' medians, and their median."""
+    ours, theirs = [r.look_ms for r in results if r.look_ms], [r.published_ms for r in results if r.published_ms]
+    value = median(ours) if ours else None
+    name = "from scan and boxes to the row, one thread, median, ours"
+    return [
+        Figure(
+            figure=name, value=value, unit="ms", n=len(ours), seed=seed, baseline=median(theirs) if theirs else None,
+            target=WANTED_LOOK_MS, ok=None if value is None else value <= WANTED_LOOK_MS,
+        )
+    ] if results else []  # fmt: skip
 
 
 def _sum(found: Iterable[TreeMatches | None]) -> TreeMatches:

@@ -44,6 +44,7 @@ class SegmentResult:
         why: what the operator was told where it did not get through.
         ours, published: trees that the camera knows and the LiDAR placed, on the same pictures and scans; of
             `Chain.OURS` only.
+        look_ms, published_ms: from scan and boxes to the row, median, ours and the published one; likewise.
     """
 
     case: SegmentCase
@@ -52,6 +53,8 @@ class SegmentResult:
     why: str
     ours: TreeMatches | None = None
     published: TreeMatches | None = None
+    look_ms: float | None = None
+    published_ms: float | None = None
 
 
 def drive_segment(case: SegmentCase) -> SegmentResult:
@@ -69,8 +72,11 @@ def drive_segment(case: SegmentCase) -> SegmentResult:
     why = _drive(lockstep, case, young, survey, config)
     there = survey.T_row_map.apply(np.array(poses))
     off, planned = (_at_stations(there, middle(there[:, 0])) for middle in (survey.middle, survey.planned))
-    watched = {"ours": eye.ours, "published": eye.published} if isinstance(eye, WatchedEye) else {}
-    return SegmentResult(case=case, off=off, planned=planned, why=why, **watched)
+    result = SegmentResult(case=case, off=off, planned=planned, why=why)
+    if not isinstance(eye, WatchedEye):
+        return result
+    look_ms, published_ms = eye.milliseconds()
+    return replace(result, ours=eye.ours, published=eye.published, look_ms=look_ms, published_ms=published_ms)
 
 
 def _eye(case: SegmentCase, world: World, config: RobotConfig) -> Eye:

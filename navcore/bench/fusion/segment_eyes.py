@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import time
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,9 +20,10 @@ from navcore.messages import (
     DetectedObject,
     LidarScan,
     RowObservation,
+    RowSource,
     SimTruth,
 )
-from navcore.perception.detector import Detector, Image
+from navcore.perception.detector import Detector, Image, Told
 from navcore.perception.onnx_detector import OnnxDetector
 from navcore.perception.plants.odometry_trail import OdometryTrail
 from navcore.perception.plants.scan_eye import ScanEye
@@ -90,17 +92,26 @@ class _Keeping:
 
 
 class OurEye:
-    """Camera and LiDAR as the row worker sees with them."""
+    """Camera and LiDAR as the row worker sees with them.
+
+    `seconds` are what each look took that showed a row to both: all but the picture and its boxes.
+    """
 
     def __init__(self, pictures: Pictures, config: RobotConfig, mount: LidarMount) -> None:
-        cameras = robot_cameras()
-        perceptions = {n: RowPerception(c, pictures.detector(n), config.perception) for n, c in cameras.items()}
+        cameras, self._told = robot_cameras(), Told()
+        perceptions = {n: RowPerception(c, self._told, config.perception) for n, c in cameras.items()}
         self._pictures, self._eye = pictures, RowEye(perceptions, cameras, ScanEye(mount, config.scan))
+        self.seconds: list[float] = []
 
     def look(self, truth: SimTruth, request: CameraRequest, scans: tuple[LidarScan, ...] = ()) -> CameraView:
         """See `lockstep.Eye`."""
         image = self._pictures.take(truth, request.camera)
-        return self._eye.look(image, truth.stamp_ns, request, scans=scans)
+        self._told.objects = self._pictures.detector(request.camera).detect(image)
+        began = time.perf_counter()
+        view = self._eye.look(image, truth.stamp_ns, request, scans=scans)
+        if view.row.valid and view.row.source is RowSource.FUSED:
+            self.seconds.append(time.perf_counter() - began)
+        return view
 
 
 class OracleEye:
@@ -153,13 +164,16 @@ class TruePlants(ScanEye):
 
 
 class ChainEye:
-    """A published chain, fed with each picture and the newest scan; `seen` is what it made of them last."""
+    """A published chain, fed with each picture and the newest scan; `seen` is what it made of them last, `seconds`
+    what each time took that showed a row.
+    """
 
     def __init__(self, chain: RowChain, pictures: Pictures | None, mount: LidarMount) -> None:
         self._chain, self._pictures, self._mount = chain, pictures, mount
         self._trail = OdometryTrail()
         self._scan = LidarScan(stamp_ns=0, began_ns=0, angles=(), distances=())
         self.seen: PublishedView | None = None
+        self.seconds: list[float] = []
 
     def look(self, truth: SimTruth, request: CameraRequest, scans: tuple[LidarScan, ...] = ()) -> CameraView:
         """See `lockstep.Eye`."""
@@ -172,12 +186,15 @@ class ChainEye:
         self, stamp_ns: int, request: CameraRequest, objects: tuple[DetectedObject, ...], scans: tuple[LidarScan, ...]
     ) -> RowObservation:  # fmt: skip
         """The row by these boxes and the newest scan."""
+        started = time.perf_counter()
         self._trail.add(request.stamp_ns, SE2(request.odom_x, request.odom_y, request.odom_yaw))
         self._scan = scans[-1] if scans else self._scan
         began, ended = self._trail.at(self._scan.began_ns), self._trail.at(self._scan.stamp_ns)
         turn = began.inverse() @ ended if began is not None and ended is not None else None
         points = scan_points(self._scan, self._mount, ScanPointsParams(), turn)
         self.seen = self._chain.process(stamp_ns, objects, points)
+        if self.seen.found.row.valid:
+            self.seconds.append(time.perf_counter() - started)
         return self.seen.found.row
 
 

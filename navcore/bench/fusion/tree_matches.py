@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from statistics import median
 
 import numpy as np
 from numpy.typing import NDArray
@@ -104,6 +105,11 @@ class WatchedEye:
     def published(self) -> TreeMatches:
         """What the published one made of the same."""
         return self._theirs.matches()
+
+    def milliseconds(self) -> tuple[float | None, float | None]:
+        """Of a look that showed a row, median, ours and the published one's; None where none did."""
+        ours, theirs = self._eye.seconds, self._published.seconds
+        return 1e3 * median(ours) if ours else None, 1e3 * median(theirs) if theirs else None
 
     def look(self, truth: SimTruth, request: CameraRequest, scans: tuple[LidarScan, ...] = ()) -> CameraView:
         """See `lockstep.Eye`."""
