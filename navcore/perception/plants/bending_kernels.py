@@ -26,7 +26,7 @@ def averaged(
     evidence, means, sides = np.empty(many), np.empty((many, n)), np.zeros((many, n))
     straight = np.empty((len(weights), n, n))
     for s in range(len(weights)):
-        w, first = weights[s], s * count
+        w, first, last = weights[s], s * count, (s + 1) * count
         weighted = basis * w.reshape(-1, 1)
         information = weighted.T @ basis + np.diag(prior[:-1])
         inverse = np.linalg.inv(information)
@@ -36,20 +36,21 @@ def averaged(
         plain = 0.5 * (told - np.sum(w * off * off) + rest @ found)
         to_asked = inverse @ asked.T
         straight[s] = asked @ to_asked
-        evidence[first], means[first] = chances[0] + plain, asked @ found
-        for k in range(len(bends)):
-            bent = w * bends[k]
-            along = bent @ basis
-            sure = prior[-1] + bent @ bends[k] - along @ (inverse @ along)
-            size = (bent @ off - along @ found) / sure
-            side = asked_bends[k] - along @ to_asked
-            i = first + k + 1
-            evidence[i] = chances[k + 1] + plain + 0.5 * (size * size * sure - np.log(sure / prior[-1]))
-            means[i], sides[i] = means[first] + size * side, side / np.sqrt(sure)
+        bent = bends * w
+        along = bent @ basis
+        sure = prior[-1] + np.sum(bent * bends, axis=1) - np.sum((along @ inverse) * along, axis=1)
+        size = (bent @ off - along @ found) / sure
+        side = asked_bends - along @ to_asked
+        evidence[first], means[first:last] = plain, asked @ found
+        evidence[first + 1 : last] = plain + 0.5 * (size * size * sure - np.log(sure / prior[-1]))
+        evidence[first:last] += chances
+        means[first + 1 : last] += size.reshape(-1, 1) * side
+        sides[first + 1 : last] = side / np.sqrt(sure).reshape(-1, 1)
     share = np.exp(evidence - np.max(evidence))
     share /= np.sum(share)
-    mean, covariance = share @ means, np.zeros((n, n))
-    for i in range(many):
-        apart = means[i] - mean
-        covariance += share[i] * (straight[i // count] + np.outer(sides[i], sides[i]) + np.outer(apart, apart))
+    mean = share @ means
+    apart, counted = means - mean, share.reshape(-1, 1)
+    covariance = sides.T @ (counted * sides) + apart.T @ (counted * apart)
+    for s in range(len(weights)):
+        covariance += np.sum(share[s * count : (s + 1) * count]) * straight[s]
     return mean, covariance
