@@ -59,7 +59,7 @@ class MapLocalizerParams:
             WIDE_MATCH,
             guess_std=1.5,
             guess_turn_std=0.5,
-            search=replace(WIDE_MATCH.search, reach=1.6, turn=math.radians(32.0), candidates=40),
+            search=replace(WIDE_MATCH.search, reach=1.6, turn=math.radians(32.0)),
         )
     )
     sure_std: float = 0.25

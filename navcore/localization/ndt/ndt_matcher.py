@@ -125,7 +125,7 @@ class NdtMatcher:
         p, grids = self._params, self._map.grids
         cells = grids[min(p.search.grid, len(grids) - 1)].cells()
         tried = [self._followed(points, start, pose) for pose in best_starts(points, start, cells, p.search)]
-        best = max(tried, key=lambda way: self._score(points, way)) if len(tried) > 1 else tried[0]
+        best = self._best(points, start, tried) if len(tried) > 1 else tried[0]
         last, steps = best.last, sum(way.steps for way in tried)
         if last.overlap < p.least_overlap:
             why = f"Only {last.overlap:.0%} of the scan's points lie where the map has any."
@@ -145,6 +145,12 @@ class NdtMatcher:
             done.append(self._descend(points, stage, start, pose, finest))
             finest = done[-1].grid if done[-1].grid < stage.grid else finest
         return _Way(pose=pose, last=done[-1], steps=sum(stage.steps for stage in done))
+
+    def _best(self, points: Floats, start: Floats, tried: list[_Way]) -> _Way:
+        """Of those that end where was searched, if any does: in leaves the next trees may fit as well."""
+        reach, at = self._params.search.reach, start[:2, 3]
+        inside = [way for way in tried if math.hypot(*(way.pose[:2, 3] - at)) <= reach]
+        return max(inside or tried, key=lambda way: self._score(points, way))
 
     def _score(self, points: Floats, way: _Way) -> float:
         R, t = np.ascontiguousarray(way.pose[:, :3]), way.pose[:, 3]

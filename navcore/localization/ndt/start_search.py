@@ -39,9 +39,9 @@ class StartSearchParams:
     candidates: int = 1
 
 
-# For a start or a restart: twenty times slower, and right in full leaf too. So dense that each way down is short.
+# For a start or a restart: forty times slower, and right in full leaf too. So dense that each way down is short.
 WIDE_SEARCH = StartSearchParams(
-    grid=1, points=500, steepness=0.1, step=0.2, turn_step=math.radians(3.0), candidates=20
+    grid=1, points=500, steepness=0.1, step=0.2, turn_step=math.radians(3.0), candidates=40
 )  # fmt: skip
 
 
