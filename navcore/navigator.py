@@ -11,7 +11,6 @@ from dataclasses import dataclass, field
 
 from navcore.control.progress import ProgressCheck, ProgressParams
 from navcore.control.speed_regulation import SpeedLimit
-from navcore.errors import InputError
 from navcore.geometry.geodesy import EnuFrame
 from navcore.localization.attitude import Attitude, AttitudeParams
 from navcore.localization.independent_check import IndependentCheck, IndependentCheckParams
@@ -40,11 +39,11 @@ from navcore.mission.map_evidence import MapEvidence, MapEvidenceParams
 from navcore.mission.motion_told import odometry
 from navcore.mission.pilot import Pilot
 from navcore.mission.pilot_params import PilotParams
-from navcore.mission.placing_refusals import placing_refusals
 from navcore.mission.position import Position
+from navcore.mission.refusals import Refusals
 from navcore.mission.senses import Senses
 from navcore.mission.situation import Situation, event_facts
-from navcore.mission.state_machine import UNDER_WAY, Circumstances, Effect, next_state, refusal
+from navcore.mission.state_machine import UNDER_WAY, Circumstances, Effect, next_state
 from navcore.mission.status import ActiveEvents, nav_status
 from navcore.vehicle import PAPER_A, VehicleParams
 
@@ -74,7 +73,8 @@ class Navigator:
 
     def __init__(self, datum: Datum, params: NavigatorParams, vehicle: VehicleParams = PAPER_A) -> None:
         self.params, self.vehicle = params, vehicle
-        self.datum = (datum.lat_deg, datum.lon_deg, datum.height_m)
+        told_datum = (datum.lat_deg, datum.lon_deg, datum.height_m)
+        self.refusals = Refusals(told_datum, params.pilot, params.events)
         frame = EnuFrame(datum)
         check = IndependentCheck(frame, params.check)
         pose_filter = PoseFilter(frame, params.filter)
@@ -131,7 +131,7 @@ class Navigator:
         """Answer every request; the newest accepted one counts, a stop before all others."""
         replies, accepted = [], []
         for request in requests:
-            reasons = self._refusals(at, request)
+            reasons = self.refusals.of(request, at, self._situation())
             replies.append(Reply(request_id=request.request_id, accepted=not reasons, reasons=reasons))
             if not reasons:
                 self._obey(at, request)
@@ -141,47 +141,12 @@ class Navigator:
         moving = [kind for kind in accepted if kind not in (RequestKind.HEARTBEAT, RequestKind.PLACE)]
         return tuple(replies), moving[-1] if moving else None
 
-    def _refusals(self, at: Position, request: Request) -> tuple[str, ...]:
-        nonsense = refusal(self.state, request.kind)
-        if nonsense:
-            return (nonsense,)
-        if request.kind is RequestKind.START:
-            return self._start_refusals(at, request)
-        if request.kind is RequestKind.PLACE:
-            return placing_refusals(self.senses, at.now_ns, request.place, self.datum)
-        return self._no_entry(at, None) if request.kind is RequestKind.RESUME else ()
-
-    def _start_refusals(self, at: Position, request: Request) -> tuple[str, ...]:
-        if request.plan is None or not request.run_id:
-            return ("The start carries no plan. Open the mission and start it again.",)
-        if request.plan.datum != self.datum:
-            return ("This mission belongs to another farm. Choose that farm first.",)
-        try:
-            pilot = self._new_pilot(at, request)
-        except InputError as error:
-            return (str(error),)
-        first = pilot.route.legs[0].line.at(0.0) if pilot else None
-        return self._no_entry(at, first)
-
-    def _new_pilot(self, at: Position, request: Request) -> Pilot | None:
-        if at.T_map_base is None or request.plan is None:
-            return None
-        return Pilot(request.plan, at, at.T_map_base, self.params.pilot, self.senses.on_map)
-
-    def _no_entry(self, at: Position, start: tuple[float, float] | None) -> tuple[str, ...]:
-        distance = None
-        if start is not None and at.T_map_base is not None:
-            distance = math.dist(start, (at.T_map_base.x, at.T_map_base.y))
-        facts = event_facts(self._situation(), at.now_ns, tick_s=0.0, stuck=False, start_distance=distance)
-        on = active_events(facts, self.params.events)
-        return tuple(event.text(facts) for event in on if Effect.NO_ENTRY in event.effects)
-
     def _obey(self, at: Position, request: Request) -> None:
         self.heard_ns = at.now_ns
         if request.place is not None and request.kind is RequestKind.PLACE:
             self.senses.place(at.now_ns, request.place)
         if request.kind is RequestKind.START:
-            self.pilot = self._new_pilot(at, request)
+            self.pilot = Pilot.of(request.plan, at, self.params.pilot, self.senses.on_map)
             self.run_id, self.link_loss = request.run_id, request.link_loss
             if request.plan is not None:
                 self.driver.take(request.plan)

@@ -9,55 +9,21 @@ from __future__ import annotations
 
 import math
 from copy import deepcopy
-from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
 from navcore.geometry.angles import wrap
 from navcore.geometry.se2 import SE2
-from navcore.localization.path_slide import PathSlide, PathSlideParams
+from navcore.localization.along_filter import AlongFilter
+from navcore.localization.path_anchor_params import PathAnchorParams
+from navcore.localization.path_slide import PathSlide
 from navcore.localization.row_bend import RowBend
-from navcore.localization.row_filter import RowFilter, RowFilterParams
+from navcore.localization.row_filter import RowFilter
 from navcore.localization.row_line import RowLine
-from navcore.localization.wheel_slip import WheelSlip, WheelSlipParams
+from navcore.localization.wheel_slip import WheelSlip
 
 Floats = NDArray[np.float64]
-
-HALF_TURN = SE2(0.0, 0.0, math.pi)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class PathAnchorParams:
-    """Parameters of `PathAnchor`.
-
-    Attributes:
-        slide: how fast the followed path may move to the wanted one.
-        row: how what is seen of a row corrects it.
-        map_lateral: 1-sigma of where a drawn row lies, m (survey by orthophoto: 0.3 to 0.8 m).
-        next_lateral: 1-sigma of where the next row lies, seen from the one that was just left, m.
-        map_heading: 1-sigma of its direction, rad.
-        left_heading: 1-sigma of the direction by a row that has just been left, rad; left_growth: more per metre.
-        map_along: 1-sigma of where it begins and ends, m.
-        gate: a row end that lies further off than so many 1-sigma is not believed.
-        insist: unless it is seen so many times in a row: then an earlier end was a gap in the row, and the place
-            along it is as unsure as the map and the wheels leave it.
-        slip: of the wheels.
-        growth_along: 1-sigma of the drift along the path, m per square root of m driven (wheel slip).
-    """
-
-    slide: PathSlideParams = field(default_factory=PathSlideParams)
-    row: RowFilterParams = field(default_factory=RowFilterParams)
-    map_lateral: float = 0.45
-    next_lateral: float = 0.2
-    map_heading: float = 0.03
-    left_heading: float = 0.015
-    left_growth: float = 0.002
-    map_along: float = 0.8
-    slip: WheelSlipParams = field(default_factory=WheelSlipParams)
-    growth_along: float = 0.15
-    gate: float = 3.0
-    insist: int = 5
 
 
 class PathAnchor:
@@ -73,11 +39,11 @@ class PathAnchor:
         self.params = params
         self.T_map_odom = T_map_odom
         self.followed = self.departed = T_map_odom
-        self.row = RowFilter(params.row)
+        self.row, self.along = RowFilter(params.row), AlongFilter(params)
         self.bend: RowBend | None = None
         self.behind: RowFilter | None = None
         self._slide = PathSlide(params.slide)
-        self.var_along = self.put_back = self.row_heading = 0.0
+        self.put_back = self.row_heading = 0.0
         self.slip = WheelSlip(params.slip)
         self._left = False
         self.unsure()
@@ -87,17 +53,14 @@ class PathAnchor:
         p = self.params
         self.row.unsure(p.map_lateral, p.map_heading)
         self.row.new_gyro()
-        self.var_along = p.map_along**2
-        self._driven = self._held_back = 0.0
-        self._contradictions = 0
+        self.along.unsure()
         self.slip.begin()
 
     def next_row(self) -> None:
         """Another row, reached from the last one: the map knows their distance better than their place."""
         p = self.params
         self.row.unsure(max(math.sqrt(self.row.covariance[0, 0]), p.next_lateral), p.map_heading)
-        self.var_along = p.map_along**2
-        self._driven = self._held_back = 0.0
+        self.along.next_row()
         self.departed = self.T_map_odom
         self.slip.begin()
 
@@ -105,17 +68,16 @@ class PathAnchor:
     def departed_stds(self) -> tuple[float, float]:
         """1-sigma of where the next row lies by `departed`: across it, m, and its direction, rad."""
         p, growth = self.params, self.params.row
-        across = math.sqrt(p.next_lateral**2 + growth.growth_lateral**2 * self._driven)
-        return across, math.sqrt(p.map_heading**2 + growth.growth_heading**2 * self._driven)
+        across = math.sqrt(p.next_lateral**2 + growth.growth_lateral**2 * self.along.driven)
+        return across, math.sqrt(p.map_heading**2 + growth.growth_heading**2 * self.along.driven)
 
     def drive(self, distance: float, dt: float, T_odom_now: SE2, slope: float = 0.0) -> None:
         """Let the uncertainty grow over `distance` m, driven in `dt` s; turn by what the gyro tells too little.
 
         `slope` as in `RowFilter.drive`.
         """
-        p, d = self.params, abs(distance)
-        self._driven += d
-        self.var_along += p.growth_along**2 * d
+        d = abs(distance)
+        self.along.drive(d)
         if self.behind is not None:
             self.behind.drive(d, dt, slope)
         turned = T_odom_now @ SE2(0.0, 0.0, self.row.drive(d, dt, slope)) @ T_odom_now.inverse()
@@ -132,7 +94,7 @@ class PathAnchor:
         Under leaves the filter's direction is degrees off, and mends only metres after its place.
         """
         by_row, p = (self.departed @ T_odom_base).yaw, self.params
-        row_std = p.left_heading + p.left_growth * self._driven
+        row_std = p.left_heading + p.left_growth * self.along.driven
         share = row_std**2 / (row_std**2 + yaw_std**2) if self._left else 1.0
         yaw = by_row + share * wrap(T_map_base.yaw - by_row)
         self.T_map_odom = SE2(T_map_base.x, T_map_base.y, wrap(yaw)) @ T_odom_base.inverse()
@@ -149,7 +111,7 @@ class PathAnchor:
         told = math.hypot(now.x - before.x, now.y - before.y)
         lost = share * told
         self.slip.drive(told, lost)
-        self._held_back += lost
+        self.along.hold_back(lost)
         self.drift(
             T_odom_before, T_odom_now, ((1.0 - share) * (now.x - before.x), (1.0 - share) * (now.y - before.y))
         )
@@ -204,41 +166,15 @@ class PathAnchor:
 
     def see_along(self, row: RowLine, T_odom_drive: SE2, along: float, std: float) -> None:
         """Correct the position along the row: `along` is the row coordinate x of the driving frame, m."""
-        at = row.coordinates(self.T_map_odom @ T_odom_drive)
-        self._doubt_along(abs(along - at.x), std)
-        if self._contradictions:
-            return
-        gain = self.var_along / (self.var_along + std**2)
-        self.var_along *= 1.0 - gain
-        self._shift(row, T_odom_drive, gain * (along - at.x))
-        self.slip.see_end()
-
-    def _doubt_along(self, off: float, std: float) -> None:
-        """Count the ends in a row that lie too far off; when they insist, be as unsure as before the first."""
-        p = self.params
-        if off <= p.gate * math.hypot(math.sqrt(self.var_along), std):
-            self._contradictions = 0
-            return
-        self._contradictions += 1
-        unsure = p.map_along**2 + p.growth_along**2 * self._driven
-        if self._contradictions >= p.insist and off <= p.gate * math.hypot(math.sqrt(unsure), std):
-            self.var_along, self._contradictions = max(self.var_along, unsure), 0
-
-    @property
-    def along_std(self) -> float:
-        """1-sigma of the place along the row, m."""
-        return math.sqrt(self.var_along)
+        ahead = self.along.see(along - row.coordinates(self.T_map_odom @ T_odom_drive).x, std)
+        if ahead is not None:
+            self._shift(row, T_odom_drive, ahead)
+            self.slip.see_end()
 
     def see_no_end(self, row: RowLine, T_odom_drive: SE2, at_most: float) -> None:
-        """The row goes on, so the driving frame's row coordinate x is no larger than `at_most`, m.
-
-        Wheels that slip tell more metres than were driven: 66 m on bare soil become 70. More than wheels can slip is
-        not believed, or something that stands beyond the row could hold the robot for ever.
-        """
-        at = row.coordinates(self.T_map_odom @ T_odom_drive)
-        back = min(at.x - at_most, self.params.slip.most * self._driven - self._held_back)
+        """The row goes on, so the driving frame's row coordinate x is no larger than `at_most`, m."""
+        back = self.along.see_beyond(row.coordinates(self.T_map_odom @ T_odom_drive).x - at_most)
         if back > 0.0:
-            self._held_back += back
             self._shift(row, T_odom_drive, -back)
 
     def _shift(self, row: RowLine, T_odom_drive: SE2, ahead: float) -> None:

@@ -54,7 +54,7 @@ class AlongTrunks:
             return
         self._looked = at.x
         found = match_trunks(
-            _placed(seen.plants, at), _known(segment.trunks), self._anchor.along_std, self._params.match
+            _placed(seen.plants, at), _known(segment.trunks), self._anchor.along.std, self._params.match
         )
         if isinstance(found, str):
             return

@@ -20,9 +20,9 @@ def camera_request(pilot: Pilot, at: Position) -> CameraRequest | None:
     row, segment = pilot.row_line(), pilot.row_segment()
     if row is None or segment is None:
         return None
-    seen_from = row.coordinates(pilot.anchor.T_map_odom @ pilot.driving_pose(at.T_odom_base))
+    seen_from = row.coordinates(pilot.anchor.T_map_odom @ pilot.leg.driving_pose(at.T_odom_base))
     return _request(
-        at, pilot.camera(), seen_from, math.sqrt(pilot.anchor.row.covariance[0, 0]), segment.corridor_width,
+        at, pilot.leg.camera, seen_from, math.sqrt(pilot.anchor.row.covariance[0, 0]), segment.corridor_width,
         row_length(segment),
     )  # fmt: skip
 
@@ -32,9 +32,9 @@ def _back(pilot: Pilot, at: Position) -> CameraRequest | None:
     look_back = pilot.look_back
     if (row := look_back.row) is None:
         return None
-    from_ahead = row.line.coordinates(look_back.tie @ pilot.driving_pose(at.T_odom_base))
+    from_ahead = row.line.coordinates(look_back.tie @ pilot.leg.driving_pose(at.T_odom_base))
     seen_from = SE2(row.length - from_ahead.x, -from_ahead.y, from_ahead.yaw)
-    return _request(at, other(pilot.camera()), seen_from, look_back.std, row.width, row.length)
+    return _request(at, other(pilot.leg.camera), seen_from, look_back.std, row.width, row.length)
 
 
 def _request(

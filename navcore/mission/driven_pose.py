@@ -57,7 +57,7 @@ def row_covariance(pilot: Pilot) -> Floats:
     heading = row.heading if row is not None else anchor.row_heading
     c, s = math.cos(heading), math.sin(heading)
     turn = np.array(((c, -s, 0.0), (s, c, 0.0), (0.0, 0.0, 1.0)))
-    in_row = np.diag((anchor.var_along, ALIKE**2, 0.0))
+    in_row = np.diag((anchor.along.variance, ALIKE**2, 0.0))
     in_row[1:, 1:] += anchor.row.covariance[:2, :2]
     covariance: Floats = turn @ in_row @ turn.T
     return covariance

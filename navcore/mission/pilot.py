@@ -6,11 +6,9 @@ import math
 
 from navcore.geometry.polyline import Projection
 from navcore.geometry.se2 import SE2
-from navcore.localization.path_anchor import HALF_TURN, PathAnchor
-from navcore.localization.row_filter import look_noise
+from navcore.localization.path_anchor import PathAnchor
 from navcore.localization.row_line import RowLine
 from navcore.messages import (
-    CameraName,
     MissionPlan,
     ModeSwitch,
     NavMode,
@@ -20,9 +18,7 @@ from navcore.messages import (
     RowSource,
     SegmentKind,
 )
-from navcore.mission.along_row import AlongRow
-from navcore.mission.along_trunks import AlongTrunks
-from navcore.mission.evidence import NO_IDEA, Doubt, RowEvidence
+from navcore.mission.evidence import RowEvidence
 from navcore.mission.look_back import LeftRow, LookBack
 from navcore.mission.map_evidence import MapEvidence
 from navcore.mission.mode_facts import ModeFacts
@@ -30,7 +26,8 @@ from navcore.mission.mode_selector import ALONG_ROW, CARRIED, ON_CAMERA, ON_POSE
 from navcore.mission.pilot_facts import mode_facts
 from navcore.mission.pilot_params import PilotParams
 from navcore.mission.position import Position
-from navcore.mission.route import Leg, Place, Route, row_length
+from navcore.mission.route import Leg, Place, Route
+from navcore.mission.row_looks import Onlooker, RowLooks
 
 
 class Pilot:
@@ -44,19 +41,25 @@ class Pilot:
         self.route = Route(plan)
         self.start_tie = T_map_base @ start.T_odom_base.inverse()
         self.anchor = PathAnchor(self.start_tie, params.anchor)
-        self.row = RowEvidence(params.row)
+        self.looks = RowLooks(self.anchor, on_map, params)
         self.look_back = LookBack(self.anchor, params.row)
-        self._along = AlongRow(self.anchor, params.along)
-        self._trunks = AlongTrunks(self.anchor, params.trunks)
         self.carried = 0.0
         self.arrived = self.captured = False
         self.halt = ""
         self._comes_from_gnss = True
         self._at = start
         self.place = Place(0, 0.0)
-        self.pose = self.driving_pose(T_map_base)
+        self.pose = self.leg.driving_pose(T_map_base)
         self.projection = self._project(near_s=None)
         self.mode, self.mode_reason = NavMode.GNSS_PATH, start_reason(start.gnss_std)
+
+    @classmethod
+    def of(cls, plan: MissionPlan | None, at: Position, params: PilotParams, on_map: MapEvidence) -> Pilot | None:
+        """The pilot that drives a plan from here; None without a plan or a place on the map.
+
+        Raises InputError for a plan that cannot be followed.
+        """
+        return None if plan is None or at.T_map_base is None else cls(plan, at, at.T_map_base, params, on_map)
 
     @property
     def leg(self) -> Leg:
@@ -79,10 +82,14 @@ class Pilot:
         return self._at.gnss_good(self.params.mode)
 
     @property
+    def row(self) -> RowEvidence:
+        """The row that matters here, as it is seen."""
+        return self.looks.evidence
+
+    @property
     def sees_row(self) -> bool:
         """The row that matters here is seen in enough pictures to be trusted, and still is."""
-        mode, age_s = self.params.mode, self.row.age_s(self._at.now_ns)
-        return self.row.streak >= mode.streak and age_s is not None and age_s <= mode.lost_s
+        return self.looks.sees_row(self._at.now_ns)
 
     @property
     def by_scan(self) -> bool:
@@ -104,12 +111,12 @@ class Pilot:
         """Take one tick; the mode switch it brought. Observations come with `T_odom_base` at their capture."""
         driven = self._carry(at)
         for seen, T_odom_base in row_seen:
-            self._see(seen, self.driving_pose(T_odom_base))
+            self._see(seen, self.leg.driving_pose(T_odom_base))
         on_road, heading = self.mode in ON_POSE, self.leg.line.heading_at(self.place.s)
         if on_road and at.T_map_base is not None:
             self.anchor.follow_pose(at.T_map_base, at.T_odom_base, at.yaw_std)
         self.pose = self.anchor.slide(
-            self.driving_pose(at.T_odom_base), dt, driven, heading, self.projection.lateral, on_road
+            self.leg.driving_pose(at.T_odom_base), dt, driven, heading, self.projection.lateral, on_road
         )
         self.projection = self._project(self.place.s)
         self.captured = self.captured or abs(self.projection.lateral) <= self.params.capture
@@ -123,10 +130,6 @@ class Pilot:
         self.anchor.jump()
         self.captured = False
         self.halt = ""
-
-    def driving_pose(self, T_x_base: SE2) -> SE2:
-        """Pose of the driving frame: turned by pi on a leg that is driven backwards."""
-        return T_x_base @ HALF_TURN if self.leg.reverse else T_x_base
 
     def _carry(self, at: Position) -> float:
         """Drive on by odometry; the distance, m."""
@@ -152,54 +155,13 @@ class Pilot:
         self.anchor.drift(before.T_odom_base, now.T_odom_base, moved)
 
     def _see(self, seen: RowObservation, T_odom_drive: SE2) -> None:
-        """Judge what the camera saw by the row that is meant, and correct the anchor while driving on it."""
-        if seen.camera is not self.camera():
+        """Take what a camera saw of the row that is meant, or of the one that is left."""
+        if seen.camera is not self.leg.camera:
             self.look_back.see(seen, T_odom_drive)
             return
-        segment = self.row_segment()
-        row = RowLine.of(segment)
-        if row is None or segment is None:
-            return
-        expected = self._expected(T_odom_drive)
-        doubt = Doubt(*self.anchor.departed_stds) if self.mode is NavMode.HEADLAND else NO_IDEA
-        if not self.row.judge(seen, row, expected, segment.width, doubt):
-            return
-        self._compare_map(seen, row, T_odom_drive)
-        turned_to = self.mode is NavMode.HEADLAND and self._turned_to_row(row, T_odom_drive)
-        if (self.mode in ON_CAMERA or turned_to) and seen.offset is not None and seen.heading is not None:
-            noise = look_noise(seen.offset_std or 0.05, seen.heading_std or 0.02, seen.correlation)
-            if seen.source is not RowSource.CAMERA:
-                noise = noise * self.params.scanned_share
-            self.anchor.see_row(row, T_odom_drive, seen.offset, seen.heading, noise, seen.curvature)
+        by = Onlooker(self.mode, self.leg, self.place.s, self._at, self._comes_from_gnss)
+        if self.looks.take(seen, T_odom_drive, by):
             self.carried = 0.0
-        if self.mode in ALONG_ROW:
-            at_end = self.mode is NavMode.ROW_END
-            self._along.see(seen, row, T_odom_drive, row_length(segment), at_end=at_end)
-            self._trunks.see(seen, segment, T_odom_drive)
-
-    def _compare_map(self, seen: RowObservation, row: RowLine, T_odom_drive: SE2) -> None:
-        """What the row says of the place on the 3D map, and the map of the row as drawn."""
-        at, leg = self._at, self.leg.row_way(self.place.s, self.params.look_out)
-        if self.mode is NavMode.ROW and at.T_map_base is not None and leg is not None:
-            self.on_map.add_row(leg, seen, row, T_odom_drive, at.T_map_base @ at.T_odom_base.inverse())
-
-    def _turned_to_row(self, row: RowLine, T_odom_drive: SE2) -> bool:
-        """Before the next row and turned to it: seen so, it puts right what the wheels got wrong in the turn."""
-        at = row.coordinates(self.anchor.T_map_odom @ T_odom_drive)
-        return self.sees_row and at.x < 0.0 and abs(at.yaw) <= self.params.turned_to
-
-    def _expected(self, T_odom_drive: SE2) -> tuple[SE2, ...]:
-        """Poses of the driving frame at a capture: by the anchor, and before the entrance by what led there too.
-
-        In a turn a fit may begin between two rows and creep over to the wrong one, taking the anchor with it.
-        """
-        at, by_anchor = self._at, self.anchor.T_map_odom @ T_odom_drive
-        if self.mode is NavMode.HEADLAND:
-            return by_anchor, self.anchor.departed @ T_odom_drive
-        on_the_way_in = self.mode in (NavMode.GNSS_PATH, NavMode.ROW_ENTRY) and self._comes_from_gnss
-        if at.T_map_base is None or not on_the_way_in or not at.gnss_good(self.params.mode):
-            return (by_anchor,)
-        return by_anchor, at.T_map_base @ at.T_odom_base.inverse() @ T_odom_drive
 
     def _project(self, near_s: float | None) -> Projection:
         return self.leg.line.project(self.pose.x, self.pose.y, near_s, self.params.search)
@@ -212,17 +174,17 @@ class Pilot:
             self.arrived = True
             return
         self.halt = self.leg.segments[-1].halt
-        self.anchor.straighten(self.driving_pose(at.T_odom_base))
+        self.anchor.straighten(self.leg.driving_pose(at.T_odom_base))
         self.place = Place(self.place.leg + 1, 0.0)
-        self.pose = self.anchor.followed @ self.driving_pose(at.T_odom_base)
+        self.pose = self.anchor.followed @ self.leg.driving_pose(at.T_odom_base)
         self.projection = self._project(near_s=0.0)
         self.row.forget()
-        self._trunks.forget()
+        self.looks.trunks.forget()
         self.look_back.row = LeftRow.of(self.row_segment())
 
     def _look_out(self) -> None:
         """Ahead, or back at the row that is being left once nothing is in sight ahead."""
-        sees_ahead = self.sees_row and not self._along.past_last_plants(self.row.agreeing)
+        sees_ahead = self.sees_row and not self.looks.along.past_last_plants(self.row.agreeing)
         if self.look_back.choose(self.mode, self.segment, sees_ahead):
             self.row.forget()
 
@@ -233,7 +195,7 @@ class Pilot:
             return None
         self.mode_reason = reason
         if self.mode not in ON_CAMERA:
-            self.anchor.straighten(self.driving_pose(at.T_odom_base))
+            self.anchor.straighten(self.leg.driving_pose(at.T_odom_base))
         self._on_switch()
         seen = self.row.agreeing
         return ModeSwitch(
@@ -244,7 +206,7 @@ class Pilot:
 
     def _on_switch(self) -> None:
         if self.mode not in ALONG_ROW:
-            self._trunks.forget()
+            self.looks.trunks.forget()
         if self.mode is NavMode.ROW:
             self.look_back.row = LeftRow.of(self.row_segment())
         if self.mode in ON_POSE:
@@ -261,7 +223,7 @@ class Pilot:
 
     def next_trunk(self) -> NextTrunk | None:
         """The known trunk that the robot comes to next in its row."""
-        return self._trunks.next_trunk(self.segment, self.pose) if self.mode in ALONG_ROW else None
+        return self.looks.trunks.next_trunk(self.segment, self.pose) if self.mode in ALONG_ROW else None
 
     def row_line(self) -> RowLine | None:
         """Centre line of the row that matters here, as drawn."""
@@ -275,7 +237,3 @@ class Pilot:
     def _facts(self, at: Position) -> ModeFacts:
         to_start, look_out = self.to_start(), self.params.look_out
         return mode_facts(at, self.leg, self.place.s, self.row, self.on_map, look_out, to_start)
-
-    def camera(self) -> CameraName:
-        """The one that looks the way the leg is driven."""
-        return CameraName.REAR if self.leg.reverse else CameraName.FRONT

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from navcore.localization.path_anchor import PathAnchorParams
+from navcore.localization.path_anchor_params import PathAnchorParams
 from navcore.mission.along_row import AlongRowParams
 from navcore.mission.along_trunks import AlongTrunksParams
 from navcore.mission.evidence import RowEvidenceParams

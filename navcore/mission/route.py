@@ -11,8 +11,10 @@ import numpy as np
 
 from navcore.errors import MissionError
 from navcore.geometry.polyline import Polyline
-from navcore.messages import MissionPlan, PathSegment, SegmentKind
+from navcore.geometry.se2 import SE2
+from navcore.messages import CameraName, MissionPlan, PathSegment, SegmentKind
 
+HALF_TURN = SE2(0.0, 0.0, math.pi)
 ROW_SEGMENTS = frozenset({SegmentKind.ENTRY, SegmentKind.ROW, SegmentKind.EXIT})
 
 
@@ -57,6 +59,15 @@ class Leg:
     def length(self) -> float:
         """Arc length, m."""
         return self.line.length
+
+    @property
+    def camera(self) -> CameraName:
+        """The one that looks the way the leg is driven."""
+        return CameraName.REAR if self.reverse else CameraName.FRONT
+
+    def driving_pose(self, T_x_base: SE2) -> SE2:
+        """Pose of the driving frame: turned by pi on a leg that is driven backwards."""
+        return T_x_base @ HALF_TURN if self.reverse else T_x_base
 
     def row_way(self, s: float, look_out: float) -> str | None:
         """Name of the row that matters at arc length `s` and of the direction in which it is driven."""

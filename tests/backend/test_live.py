@@ -1,17 +1,10 @@
-"""The live feed and the whole station process, over real sockets."""
+"""The live feed, over real sockets."""
 
 from __future__ import annotations
 
 import asyncio
 import json
-import os
-import re
-import signal
 import struct
-import subprocess
-import sys
-import urllib.error
-import urllib.request
 from collections.abc import Iterator
 from concurrent.futures import CancelledError
 from contextlib import contextmanager, suppress
@@ -23,69 +16,13 @@ from starlette.websockets import WebSocketDisconnect
 
 from backend.live import Outbox, framed
 from backend.schemas import LiveTopics
-from backend.settings import Settings
-from navcore.messages import RequestKind, RunState
+from navcore.messages import RequestKind
 from navcore.topics import CAMERA_VIEW, TOPICS
 from navcore.transport.pubsub import Received
 from tests.backend.conftest import ORIGIN
 from tests.backend.played_robot import JPEG, PlayedRobot, until
 
 SOCKET = ORIGIN.replace("http", "ws")
-
-
-class StationProcess:
-    """`python -m backend`, as it is served."""
-
-    def __init__(self, settings: Settings, port: int = 0) -> None:
-        self._environment = os.environ | {
-            "ROWPILOT_DATA_DIR": str(settings.data_dir),
-            "ROWPILOT_BUS_DIR": str(settings.bus_dir),
-            "ROWPILOT_SCENE": "false",
-            "ROWPILOT_PORT": str(port),
-        }
-        self.log = settings.data_dir.parent / "station.log"
-        with self.log.open("ab") as log:
-            self.process = subprocess.Popen(
-                [sys.executable, "-m", "backend"], env=self._environment, stdout=subprocess.PIPE, stderr=log
-            )
-        self.address, self.token = self._read_address()
-        self.port = int(self.address.rpartition(":")[2])
-        self.cookie = ""
-
-    def _read_address(self) -> tuple[str, str]:
-        assert self.process.stdout is not None
-        for line in self.process.stdout:
-            found = re.search(rb"(http://\S+)/enter\?token=(\S+)", line)
-            if found:
-                return found[1].decode(), found[2].decode()
-        raise AssertionError(self.log.read_text())
-
-    def enter(self) -> None:
-        class NoRedirect(urllib.request.HTTPRedirectHandler):
-            def redirect_request(self, *_: Any) -> None:
-                return None
-
-        opener = urllib.request.build_opener(NoRedirect)
-        assert until(lambda: self._is_up())
-        codes = []
-        for _ in range(2):
-            try:
-                opener.open(f"{self.address}/enter?token={self.token}")
-            except urllib.error.HTTPError as answer:
-                codes.append(answer.code)
-                answer.close()
-        assert codes == [303, 403]
-
-    def _is_up(self) -> bool:
-        try:
-            urllib.request.urlopen(f"{self.address}/api/session").close()
-        except OSError:
-            return False
-        return True
-
-    def kill(self, number: int) -> int:
-        self.process.send_signal(number)
-        return self.process.wait(30.0)
 
 
 @pytest.fixture
@@ -217,35 +154,3 @@ def test_the_frame_holds_the_bytes_of_the_bus() -> None:
     assert isinstance(binary, bytes)
     assert binary.endswith(JPEG)
     assert payload in binary
-
-
-@pytest.fixture
-def processes() -> Iterator[list[StationProcess]]:
-    started: list[StationProcess] = []
-    yield started
-    for station in started:
-        if station.process.poll() is None:
-            station.kill(signal.SIGKILL)
-        if station.process.stdout is not None:
-            station.process.stdout.close()
-
-
-def test_a_killed_station_comes_back_without_moving_anything(
-    robot: PlayedRobot, settings: Settings, processes: list[StationProcess]
-) -> None:
-    robot.state, robot.run_id = RunState.DRIVING, "a" * 16
-    first = StationProcess(settings)
-    processes.append(first)
-    first.enter()
-    before = robot.x
-    assert first.kill(signal.SIGKILL) == -signal.SIGKILL
-    assert until(lambda: robot.x > before + 0.2)
-    second = StationProcess(settings, first.port)
-    processes.append(second)
-    second.enter()
-    assert robot.state is RunState.DRIVING
-    assert set(robot.kinds()) <= {RequestKind.HEARTBEAT}
-    assert first.token not in first.log.read_text()
-    assert second.token not in first.log.read_text()
-    assert "GET /enter" in first.log.read_text()
-    assert second.kill(signal.SIGTERM) in (0, -signal.SIGTERM)

@@ -9,7 +9,6 @@ from __future__ import annotations
 import math
 from collections import deque
 from dataclasses import dataclass
-from itertools import pairwise
 from statistics import median
 
 from navcore.geometry.se2 import SE2
@@ -63,12 +62,21 @@ class Doubts:
             self.reason = ""
 
 
+@dataclass(frozen=True, slots=True)
+class WatchedMatch:
+    """A match and the odometry at its capture; `farther` than the wheels say it went since the match before, m."""
+
+    match: MapMatch
+    T_odom_base: SE2
+    farther: float
+
+
 class MapWatch:
     """Fed with matches and with what others say of the same moment; `reason` tells why not to believe."""
 
     def __init__(self, params: MapWatchParams | None = None) -> None:
         self._p = p = params or MapWatchParams()
-        self._matches: deque[tuple[MapMatch, SE2]] = deque(maxlen=50)
+        self._matches: deque[WatchedMatch] = deque(maxlen=50)
         self._wheels, self._fix, self._row = Doubts(p.patience), Doubts(p.patience), Doubts(p.row_patience)
         self._row_id: str | None = None
         self._row_places: deque[float] = deque(maxlen=5 * p.learn)
@@ -83,19 +91,21 @@ class MapWatch:
         if match.state is not MatchState.MATCHED:
             self._matches.clear()
             return False
-        if (before := self._before(match)) is not None:
-            self._wheels.hear(self._jumped(before, match, T_odom_base))
-        self._matches.append((match, T_odom_base))
+        self._forget_before(match.stamp_ns)
+        now = WatchedMatch(match, T_odom_base, self._farther(match, T_odom_base))
+        if self._matches:
+            self._wheels.hear(self._jumped(self._matches[0], now))
+        self._matches.append(now)
         return not self.reason
 
     def add_fix(
         self, stamp_ns: int, x: float, y: float, std: float, T_odom_at: SE2, antenna: tuple[float, float]
     ) -> None:
         """A fixed RTK position of the antenna in `map`, m, with the odometry at its capture."""
-        if not self._matches or abs(stamp_ns - self._matches[-1][0].stamp_ns) * NS > self._p.back_s:
+        if not self._matches or abs(stamp_ns - self._matches[-1].match.stamp_ns) * NS > self._p.back_s:
             return
-        match, T_odom_base = self._matches[-1]
-        here = _place(match) @ T_odom_base.inverse() @ T_odom_at
+        last = self._matches[-1]
+        here = _place(last.match) @ last.T_odom_base.inverse() @ T_odom_at
         off = math.dist(here.apply_point(*antenna), (x, y))
         apart = off > self._p.apart + 3.0 * std
         self._fix.hear(f"RTK and the 3D map are {off:.1f} m apart" if apart else "")
@@ -119,30 +129,32 @@ class MapWatch:
             return False
         return abs(median(self._row_places)) <= within
 
-    def _before(self, match: MapMatch) -> tuple[MapMatch, SE2] | None:
-        """The oldest match of at most `back_s` ago."""
-        while self._matches and (match.stamp_ns - self._matches[0][0].stamp_ns) * NS > self._p.back_s:
+    def _forget_before(self, stamp_ns: int) -> None:
+        """Matches of more than `back_s` before that moment."""
+        while self._matches and (stamp_ns - self._matches[0].match.stamp_ns) * NS > self._p.back_s:
             self._matches.popleft()
-        return self._matches[0] if self._matches else None
 
-    def _jumped(self, before: tuple[MapMatch, SE2], now: MapMatch, T_odom_base: SE2) -> str:
-        p, (match, T_odom_before) = self._p, before
-        moved = _place(match).inverse() @ _place(now)
-        driven = T_odom_before.inverse() @ T_odom_base
+    def _farther(self, match: MapMatch, T_odom_base: SE2) -> float:
+        if not self._matches:
+            return 0.0
+        last = self._matches[-1]
+        return (_place(last.match).inverse() @ _place(match)).x - (last.T_odom_base.inverse() @ T_odom_base).x
+
+    def _jumped(self, before: WatchedMatch, now: WatchedMatch) -> str:
+        p = self._p
+        moved = _place(before.match).inverse() @ _place(now.match)
+        driven = before.T_odom_base.inverse() @ now.T_odom_base
         way = math.hypot(driven.x, driven.y)
-        slipped = self._slipped(now, T_odom_base, p.slip * way) / way if way > 0.0 else 0.0
+        slipped = self._slipped(now, p.slip * way) / way if way > 0.0 else 0.0
         off = math.hypot(moved.x - (1.0 + slipped) * driven.x, moved.y - (1.0 + slipped) * driven.y)
         turned = abs((driven.inverse() @ moved).yaw)
         if off > p.jump + p.jump_share * way:
             return f"the 3D map's place jumped {off:.1f} m against the wheels"
         return f"the 3D map's direction jumped {math.degrees(turned):.0f} deg" if turned > p.jump_yaw else ""
 
-    def _slipped(self, now: MapMatch, T_odom_base: SE2, most: float) -> float:
+    def _slipped(self, now: WatchedMatch, most: float) -> float:
         """How much farther than the wheels say all matches have gone, step by step alike, m: a jump is one step."""
-        steps = [
-            (_place(a).inverse() @ _place(b)).x - (T_odom_a.inverse() @ T_odom_b).x
-            for (a, T_odom_a), (b, T_odom_b) in pairwise((*self._matches, (now, T_odom_base)))
-        ]
+        steps = [match.farther for match in (*self._matches, now)][1:]
         return min(max(len(steps) * median(steps), -most), most)
 
 

@@ -6,14 +6,12 @@ is the middle of an upright, so its points are moved there, as far as it can be 
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
-from navcore.geometry.voxel_table import FREE, Keys, Slots, find, key_of
+from navcore.mapping.lidar3d.upright_kernels import move_away
 from navcore.maps.ndt.cell_grid import CellGrid
 
 Floats = NDArray[np.float64]
@@ -49,7 +47,7 @@ class UprightFaces:
     def middles(self, points: Floats, eye: Floats) -> Floats:
         """Points (N, 3) that were seen from `eye` (3,), those of uprights moved away from it, level."""
         keys, slots, _, size = self._grid.cells()
-        return _moved(np.ascontiguousarray(points), eye, keys, slots, size, self._upright, self._p.behind)
+        return move_away(np.ascontiguousarray(points), eye, keys, slots, size, self._upright, self._p.behind)
 
 
 def _upright(sums: Floats, p: UprightFacesParams) -> Mask:
@@ -60,18 +58,3 @@ def _upright(sums: Floats, p: UprightFacesParams) -> Mask:
     xy, zz = square[:, 1] - mean[:, 0] * mean[:, 1], square[:, 5] - mean[:, 2] ** 2
     widest = (xx + yy) / 2.0 + np.hypot((xx - yy) / 2.0, xy)
     return np.asarray((sums[:, 0] >= p.least) & (widest < p.thin**2) & (zz > p.tall**2))
-
-
-@njit(cache=True, nogil=True)
-def _moved(
-    points: Floats, eye: Floats, keys: Keys, slots: Slots, size: float, upright: Mask, behind: float
-) -> Floats:  # fmt: skip
-    moved = points.copy()
-    for n in range(len(points)):
-        x, y, z = points[n, 0], points[n, 1], points[n, 2]
-        slot = find(keys, slots, key_of(math.floor(x / size), math.floor(y / size), math.floor(z / size)))
-        away = math.hypot(x - eye[0], y - eye[1])
-        if slot != FREE and upright[slot] and away > behind:
-            moved[n, 0] += behind * (x - eye[0]) / away
-            moved[n, 1] += behind * (y - eye[1]) / away
-    return moved

@@ -10,78 +10,25 @@ import cv2
 import numpy as np
 import pytest
 
-from navcore.calibration.board import Board, Image
-from navcore.calibration.calibration_file import numbers_of
-from navcore.calibration.coverage import CoverageParams
-from navcore.calibration.intrinsics import CameraIntrinsics, IntrinsicsParams
-from navcore.calibration.session.camera_job import CameraJob
-from navcore.calibration.session.job import Job
-from navcore.calibration.session.lidar_job import NO_LIDAR, LidarJob, LidarJobParams
+from navcore.calibration.board import Image
+from navcore.calibration.intrinsics import CameraIntrinsics
+from navcore.calibration.session.lidar_job import NO_LIDAR
 from navcore.calibration.session.scan_store import ScanStore
-from navcore.calibration.session.session import Session
-from navcore.calibration.session.session_folder import SessionFolder
-from navcore.calibration.session.state import SessionSetup
-from navcore.calibration.session.still_board import StillBoard, StillBoardParams
 from navcore.errors import CalibrationError
-from navcore.messages import BoardPhase, CalibrationJob, CalibrationView, CameraName, LidarScan, RawPicture
-from navcore.sim.board_rehearsal import CAMERA, LENS, BoardRehearsal, BoardRehearsalParams, told_mount, true_mount
-from tests.navcore.calibration.boards import BOARD, corners_seen, facing
-from tests.navcore.calibration.test_calibration_file import VERSION
-
-MS = 1_000_000
-FRAME_NS = 200 * MS
-FRONT = CameraName.FRONT
-SETUP = SessionSetup(
-    id="s", job=CalibrationJob.CAMERA, camera=FRONT, board=Board(), robot="ant", began_utc="2026-11-27T09:00:00Z"
+from navcore.messages import BoardPhase, LidarScan, RawPicture
+from navcore.sim.board_rehearsal import CAMERA, true_mount
+from tests.navcore.calibration.rehearsed import (
+    FRAME_NS,
+    FRONT,
+    LIDAR_SETUP,
+    MS,
+    SETUP,
+    Rehearsed,
+    begun,
+    camera_job,
+    lidar_job,
+    raw,
 )
-LIDAR_SETUP = replace(SETUP, job=CalibrationJob.LIDAR)
-
-
-def camera_job() -> CameraJob:
-    return CameraJob(CoverageParams(), IntrinsicsParams())
-
-
-def lidar_job() -> LidarJob:
-    return LidarJob(Board(), replace(VERSION, intrinsics=CAMERA, lens=LENS), LidarJobParams())
-
-
-class Rehearsed:
-    """A session before the rehearsal's camera and LiDAR, with a clock of its own."""
-
-    def __init__(self, folder: Path, job: Job, setup: SessionSetup, poses: int) -> None:
-        self.job, self.session = job, begun(folder, job, setup)
-        self._frames = BoardRehearsal(setup.job, Board(), BoardRehearsalParams(poses=poses)).frames()
-        self.now_ns = 0
-        self.lidar_late_ns = 0
-
-    def show(self, count: int) -> list[CalibrationView]:
-        return [self._show() for _ in range(count)]
-
-    def _show(self) -> CalibrationView:
-        self.now_ns += FRAME_NS
-        frame = next(self._frames)
-        stamp_ns = self.now_ns - self.lidar_late_ns
-        self.job.hear(
-            LidarScan(
-                stamp_ns=stamp_ns, began_ns=stamp_ns - 100 * MS, angles=tuple(frame.angles),
-                distances=tuple(frame.distances),
-            )
-        )  # fmt: skip
-        return self.session.see(raw(self.now_ns), cv2.cvtColor(frame.image, cv2.COLOR_BGR2GRAY).astype(np.uint8))
-
-
-def begun(folder: Path, job: Job, setup: SessionSetup = SETUP) -> Session:
-    store = SessionFolder(folder)
-    if store.setup() is None:
-        store.begin(setup)
-    return Session(setup, store, job, StillBoardParams())
-
-
-def raw(stamp_ns: int, width_px: int = CAMERA.width_px, height_px: int = CAMERA.height_px) -> RawPicture:
-    return RawPicture(
-        stamp_ns=stamp_ns, camera=FRONT, width_px=width_px, height_px=height_px,
-        T_lidar_camera=numbers_of(told_mount()),
-    )  # fmt: skip
 
 
 @pytest.fixture(autouse=True, scope="module")
@@ -230,45 +177,3 @@ def test_a_board_beside_the_lidars_plane_is_not_taken_and_the_reason_told(tmp_pa
     assert off
     assert all("Hold the board into the LiDAR's plane" in view.words for view in off)
     assert views[-1].taken == 0
-
-
-def test_only_one_session_is_begun_in_a_folder(tmp_path: Path) -> None:
-    folder = SessionFolder(tmp_path / "s")
-    folder.begin(SETUP)
-    with pytest.raises(CalibrationError, match="under way"):
-        folder.begin(SETUP)
-    assert folder.setup() == SETUP
-    folder.throw_away()
-    assert folder.setup() is None
-
-
-def test_a_damaged_session_says_so(tmp_path: Path) -> None:
-    (tmp_path / "setup.json").write_text('{"id": 7}')
-    with pytest.raises(CalibrationError, match="Throw it away"):
-        SessionFolder(tmp_path).setup()
-
-
-def test_a_hand_that_trembles_is_still_and_one_that_moves_is_not() -> None:
-    rng = np.random.default_rng(5)
-    still, moving = StillBoard(StillBoardParams()), StillBoard(StillBoardParams())
-    for k in range(1, 12):
-        calm = moving_share = 0.0
-        calm = still.see(corners_seen(facing(0.4, x=0.0005 * (k % 2)), rng), k * 100 * MS)
-        moving_share = moving.see(corners_seen(facing(0.4, x=0.01 * k), rng), k * 100 * MS)
-    assert calm == 1.0
-    assert moving_share < 0.3
-
-
-def test_pictures_with_a_long_gap_between_them_tell_no_stillness() -> None:
-    rng, still = np.random.default_rng(5), StillBoard(StillBoardParams())
-    still.see(corners_seen(facing(0.4), rng), 0)
-    assert still.see(corners_seen(facing(0.4), rng), 5000 * MS) == 0.0
-
-
-def test_a_pose_is_new_only_if_a_corner_is_somewhere_else() -> None:
-    rng, still = np.random.default_rng(5), StillBoard(StillBoardParams())
-    seen = corners_seen(facing(0.4), rng)
-    assert not still.is_new(corners_seen(facing(0.4, x=0.002), rng), [seen])
-    assert still.is_new(corners_seen(facing(0.4, x=0.05), rng), [seen])
-    assert still.is_new(seen, [])
-    assert BOARD.columns == 8

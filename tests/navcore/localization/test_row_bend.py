@@ -9,7 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from navcore.geometry.se2 import SE2
-from navcore.localization.path_anchor import PathAnchor, PathAnchorParams
+from navcore.localization.path_anchor import PathAnchor
+from navcore.localization.path_anchor_params import PathAnchorParams
 from navcore.localization.row_bend import RowBend
 from navcore.localization.row_filter import look_noise
 from navcore.localization.row_line import RowLine

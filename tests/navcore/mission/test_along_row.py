@@ -7,7 +7,8 @@ from dataclasses import replace
 import pytest
 
 from navcore.geometry.se2 import SE2
-from navcore.localization.path_anchor import PathAnchor, PathAnchorParams
+from navcore.localization.path_anchor import PathAnchor
+from navcore.localization.path_anchor_params import PathAnchorParams
 from navcore.localization.row_line import RowLine
 from navcore.messages import CameraName, RowObservation
 from navcore.mission.along_row import AlongRow, AlongRowParams

@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 
 from navcore.geometry.se2 import SE2
-from navcore.localization.path_anchor import PathAnchor, PathAnchorParams
+from navcore.localization.path_anchor import PathAnchor
+from navcore.localization.path_anchor_params import PathAnchorParams
 from navcore.localization.row_line import RowLine
 from navcore.messages import CameraName, NavMode, PathSegment, RowObservation, SegmentKind
 from navcore.mission.evidence import RowEvidenceParams

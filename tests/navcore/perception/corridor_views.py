@@ -10,9 +10,11 @@ from navcore.geometry.pinhole import PinholeCamera, robot_camera, rotation_from_
 from navcore.geometry.se2 import SE2
 from navcore.messages import CameraName, CameraView, DetectedObject, ObjectKind
 from navcore.perception.detector import Image, Told
-from navcore.perception.row_perception import RowPerception
+from navcore.perception.row_lines import RowPrior
+from navcore.perception.row_perception import RowMethod, RowPerception, RowPerceptionParams
 
 FRONT = robot_camera()
+REAR = robot_camera(rear=True)
 
 
 def picture(camera: PinholeCamera) -> Image:
@@ -64,3 +66,14 @@ def drive(perception: RowPerception, told: Told, poses: list[SE2], **orchard: ob
         views.append(perception.process(picture(FRONT), i, CameraName.FRONT, motion=motion))
         last = pose
     return views
+
+
+def look(
+    pose: SE2, camera: PinholeCamera = FRONT, method: RowMethod = RowMethod.CORRIDOR, prior: RowPrior | None = None,
+    **orchard: object,
+) -> CameraView:  # fmt: skip
+    """One picture from `pose` in an orchard whose corridor runs along x."""
+    told = Told(boxes_at(camera, corridor_feet(pose, **orchard)))  # type: ignore[arg-type]
+    name = CameraName.REAR if camera is REAR else CameraName.FRONT
+    perception = RowPerception(camera, told, RowPerceptionParams(method=method))
+    return perception.process(picture(camera), 7, name, prior=prior)

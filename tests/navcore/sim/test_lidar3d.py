@@ -1,73 +1,27 @@
-"""The simulated 3D LiDAR: true to geometry, noisy as told, blind behind what is solid, the same bits for a seed."""
+"""The simulated 3D LiDAR as a device: its beams, its time, its noise and its faults, the same bits for a seed."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
-from numpy.typing import NDArray
 
 from navcore.errors import ContractError, InputError, NotFiniteError
-from navcore.geometry.lidar_mount import LidarMount
 from navcore.geometry.se3 import SE3
-from navcore.sim.lidar3d import C16, FLAWLESS_3D, VLP16, Lidar3d, Lidar3dFaults, Lidar3dParams, SimTurn
-from navcore.sim.rays.ground import Ground
-from navcore.sim.rays.land_scene import LandScene, Part
-from navcore.sim.trellis.shapes import Shapes, bunches, panels, rods, scene_of
-
-Floats = NDArray[np.float64]
-MOUNT = LidarMount(x=0.2, y=0.0, z=0.6)
-S = 1_000_000_000
-ROUNDED_M = 6e-5
-"""Half the resolution of a flawless sensor."""
-
-
-def level(height: float = 0.0, grass: float = 0.0) -> Ground:
-    soil = np.full((3, 3), height, np.float32)
-    return Ground(-500.0, -500.0, 1.0 / 500.0, 0.05, soil, soil + np.float32(grass))
-
-
-def wall(x: float, part: Part = Part.WALL, top: float = 30.0) -> Shapes:
-    """Across the x axis, 400 m wide."""
-    corners = [(x, -200.0, -1.0), (x, 200.0, -1.0), (x, 200.0, top), (x, -200.0, top)]
-    return panels(np.array([corners]), part)
-
-
-def pole(x: float, y: float, radius: float = 0.05, part: Part = Part.POST) -> Shapes:
-    return rods(np.array([(x, y, -0.1)]), np.array([(x, y, 3.0)]), np.array([radius]), np.array([radius]), part)
-
-
-def scene(*pieces: Shapes, ground: Ground | None = None) -> LandScene:
-    return scene_of(list(pieces), ground or level(), 0.15)
-
-
-def turn(
-    what: LandScene, params: Lidar3dParams = FLAWLESS_3D, *, begin: SE3 | None = None, end: SE3 | None = None,
-    seed: int = 1, stamp_ns: int = S, faults: Lidar3dFaults | None = None, mount: LidarMount = MOUNT,
-) -> SimTurn:  # fmt: skip
-    poses = (begin or SE3.identity(), end or begin or SE3.identity())
-    lidar = Lidar3d(what, mount, params, seed)
-    return lidar.turn(stamp_ns, (stamp_ns - S // 10, stamp_ns), poses, faults or Lidar3dFaults())
-
-
-def on_robot(told: SimTurn) -> Floats:
-    """Points in `base_link`."""
-    return np.asarray(told.cloud.points + np.array((MOUNT.x, MOUNT.y, MOUNT.z)))
-
-
-def seen(told: SimTurn, part: Part) -> NDArray[np.bool_]:
-    return np.asarray(told.parts == int(part))
-
-
-def test_a_wall_is_flat_and_where_it_stands() -> None:
-    told = turn(scene(wall(7.0)))
-    points = on_robot(told)[seen(told, Part.WALL)]
-    assert len(points) > 5000
-    assert np.abs(points[:, 0] - 7.0).max() < ROUNDED_M
+from navcore.sim.lidar3d import C16, VLP16, Lidar3d, Lidar3dFaults, Lidar3dParams
+from navcore.sim.rays.land_scene import Part
+from tests.navcore.sim.lidar3d_turns import (
+    MOUNT,
+    S,
+    level,
+    on_robot,
+    pole,
+    scene,
+    seen,
+    turn,
+    wall,
+)
 
 
 def test_sixteen_beams_two_degrees_apart_look_at_1800_azimuths() -> None:
@@ -80,33 +34,6 @@ def test_sixteen_beams_two_degrees_apart_look_at_1800_azimuths() -> None:
     assert set(told.cloud.rings.tolist()) == set(range(16))
 
 
-def test_level_ground_is_met_in_circles_whose_radius_the_elevation_gives() -> None:
-    told = turn(scene(pole(50.0, 50.0)))
-    ground = seen(told, Part.SOIL)
-    assert np.abs(on_robot(told)[ground, 2]).max() < 2e-4  # m
-    for ring in range(7):
-        radius = np.hypot(*told.cloud.points[ground & (told.cloud.rings == ring), :2].T)
-        assert radius == pytest.approx(0.6 / math.tan(math.radians(15.0 - 2.0 * ring)), abs=2e-3)  # m
-        assert len(radius) == 1800
-
-
-@settings(deadline=None, max_examples=30)  # the first call compiles
-@given(
-    x=st.floats(2.0, 20.0), y=st.floats(-10.0, 10.0), yaw=st.floats(-3.1, 3.1), roll=st.floats(-0.08, 0.08),
-    pitch=st.floats(-0.08, 0.08),
-)  # fmt: skip
-def test_a_post_is_met_on_its_skin_from_wherever_the_robot_stands_and_leans(
-    x: float, y: float, yaw: float, roll: float, pitch: float
-) -> None:
-    pose = SE3.from_rpy((3.0, -4.0, 0.0), roll, pitch, yaw)
-    told = turn(scene(pole(x + 3.0, y - 4.0)), begin=pose)
-    points = pose.apply(on_robot(told))[seen(told, Part.POST)]
-    away = math.hypot(x, y)
-    beams = math.degrees(math.atan(2.4 / away) + math.atan(0.6 / away)) / 2.0
-    assert len(points) > 0.5 * min(beams, 14.0) * 0.1 / away / math.radians(0.2) - 2.0
-    assert np.abs(np.hypot(points[:, 0] - x - 3.0, points[:, 1] - y + 4.0) - 0.05).max() < 2 * ROUNDED_M
-
-
 def test_a_real_sensor_places_a_post_within_its_noise() -> None:
     what, means = scene(pole(5.0, 1.0)), []
     for k in range(20):
@@ -117,59 +44,6 @@ def test_a_real_sensor_places_a_post_within_its_noise() -> None:
     errors = np.concatenate(means)
     assert errors.mean() == pytest.approx(-0.04, abs=0.01)  # m: the near side of a post of 5 cm
     assert errors.std() == pytest.approx(0.022, abs=0.006)  # m: 2 cm of noise, 5 mm of each beam's own, its roundness
-
-
-def test_nothing_is_seen_behind_a_wall_but_what_rises_above_it() -> None:
-    told = turn(scene(wall(4.0, top=1.5), wall(9.0, Part.FENCE)))
-    behind = on_robot(told)[seen(told, Part.FENCE)]
-    assert (behind[:, 2] > 0.6 + (1.5 - 0.6) * 8.8 / 3.8 - 0.02).all()
-    assert len(behind) > 100
-    assert not (seen(told, Part.SOIL) & (on_robot(told)[:, 0] > 4.0)).any()
-
-
-def test_leaves_hide_some_of_what_is_behind_them_and_let_some_through() -> None:
-    rng = np.random.default_rng(3)
-    middle = rng.uniform((3.0, -2.0, 0.0), (4.0, 2.0, 3.0), (250, 3))
-    what = scene(bunches(middle, np.full(250, 0.15), 0.6, Part.LEAF, rng), wall(6.0))
-    told = turn(what)
-    x, y, z = told.cloud.points.T
-    ahead = (x > 0.0) & (np.abs(y / np.maximum(x, 1e-9)) < 0.3) & (np.abs(z) < 0.2 * x)
-    through = (seen(told, Part.WALL) & ahead).sum() / ahead.sum()
-    assert 0.1 < through < 0.7
-
-
-def test_a_wire_is_met_by_some_rays_only_and_less_by_far_ones() -> None:
-    def wire(y: float) -> Shapes:
-        return rods(np.array([(-30.0, y, 1.2)]), np.array([(30.0, y, 1.2)]), np.array([1e-3]), np.array([1e-3]),
-                    Part.WIRE)  # fmt: skip
-
-    counts = {}
-    for y in (3.0, 12.0):
-        told = turn(scene(wire(y)), C16)
-        points = on_robot(told)[seen(told, Part.WIRE)]
-        counts[y] = len(points)
-        assert np.abs(points[:, 1] - y).max() < 0.12  # m: six sigma
-        assert np.abs(points[:, 2] - 1.2).max() < 0.12  # m: and the spot's width
-    assert 20 < counts[3.0] < 400
-    assert counts[12.0] < counts[3.0]
-
-
-def test_a_wire_before_a_near_bright_wall_is_lost_in_its_light() -> None:
-    wire = rods(
-        np.array([(3.0, -5.0, 1.0)]), np.array([(3.0, 5.0, 1.0)]), np.array([1e-3]), np.array([1e-3]), Part.WIRE
-    )
-    alone, before = turn(scene(wire)), turn(scene(wire, wall(3.3)))
-    assert seen(alone, Part.WIRE).sum() > 20
-    assert seen(before, Part.WIRE).sum() < 0.2 * seen(alone, Part.WIRE).sum()
-
-
-def test_edges_give_points_in_between_where_two_surfaces_are_near_each_other() -> None:
-    what = scene(pole(5.0, 0.0, 0.2, Part.TRUNK), wall(5.5))
-    told, clean = turn(what, replace(FLAWLESS_3D, edge_gap=0.6)), turn(what)
-    between = on_robot(told)[seen(told, Part.MIXED)]
-    assert len(between) >= 4
-    assert ((between[:, 0] > 4.75) & (between[:, 0] < 5.5)).all()
-    assert not seen(clean, Part.MIXED).any()
 
 
 def test_a_driving_robot_measures_each_point_from_where_it_is_then() -> None:
@@ -205,15 +79,6 @@ def test_the_same_seed_and_stamp_give_the_same_bits_and_another_stamp_others() -
     assert one.cloud.intensities.tobytes() == same.cloud.intensities.tobytes()
     assert one.cloud.points.tobytes() != other.cloud.points.tobytes()
     assert turn(what, C16, seed=2).cloud.points.tobytes() != one.cloud.points.tobytes()
-
-
-def test_grass_is_met_between_its_tops_and_the_soil_and_near_its_tops_at_a_graze() -> None:
-    told = turn(scene(pole(90.0, 0.0), ground=level(grass=0.2)))
-    grass, z = seen(told, Part.GRASS), on_robot(told)[:, 2]
-    assert ((z > -1e-3) & (z < 0.2 + 1e-3))[grass].all()
-    steep, flat = (z[grass & (told.cloud.rings == ring)].mean() for ring in (0, 7))
-    assert steep < flat
-    assert flat > 0.19  # m
 
 
 def test_dark_things_far_away_are_often_lost_and_nothing_is_told_beyond_the_range() -> None:
