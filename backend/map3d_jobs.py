@@ -82,7 +82,7 @@ class Map3dJobs:
     def close(self) -> None:
         """End what is under way."""
         with self._lock:
-            process = self._process
+            process, self._stopped = self._process, True
         if process is not None:
             with suppress(ProcessLookupError):
                 process.kill()

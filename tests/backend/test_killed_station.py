@@ -36,7 +36,6 @@ class StationProcess:
             )
         self.address, self.token = self._read_address()
         self.port = int(self.address.rpartition(":")[2])
-        self.cookie = ""
 
     def _read_address(self) -> tuple[str, str]:
         assert self.process.stdout is not None
