@@ -41,11 +41,12 @@ compiled: $(STAMP)/compiled
 frontend: $(STAMP)/frontend
 browser: $(STAMP)/browser
 
+# What nobody imports, two files of three, is never compiled; the rest is at its first import.
 $(STAMP)/venv: pyproject.toml
 	@mkdir -p $(STAMP)
 	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
 	$(BIN)/python -m pip install --quiet --upgrade pip
-	$(BIN)/python -m pip install --quiet --editable '.[dev]'
+	$(BIN)/python -m pip install --quiet --no-compile --editable '.[dev]'
 	@touch $@
 
 # Inner loops of the simulated sensors, of perception and of the 3D map: no first picture or scan waits for a compiler.
