@@ -3,7 +3,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 STAMP := .make
-WARM_UPS := navcore.sim.camera_warm_up navcore.runtime.cloud_warm_up navcore.runtime.scan_warm_up
+WARM_UPS := navcore.runtime.scan_warm_up navcore.sim.camera_warm_up navcore.runtime.cloud_warm_up
 # Compiling, checking and the browser's installation wait for different things: side by side, with a line each.
 MAKEFLAGS += --jobs=3
 # Half a dozen processes read the same modules at every start: they are compiled once and kept, whatever the shell says.
@@ -41,18 +41,19 @@ compiled: $(STAMP)/compiled
 frontend: $(STAMP)/frontend
 browser: $(STAMP)/browser
 
+# What nobody imports, two files of three, is never compiled; the rest is at its first import.
 $(STAMP)/venv: pyproject.toml
 	@mkdir -p $(STAMP)
 	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
 	$(BIN)/python -m pip install --quiet --upgrade pip
-	$(BIN)/python -m pip install --quiet --editable '.[dev]'
+	$(BIN)/python -m pip install --quiet --no-compile --editable '.[dev]'
 	@touch $@
 
 # Inner loops of the simulated sensors, of perception and of the 3D map: no first picture or scan waits for a compiler.
 $(STAMP)/compiled: $(WARM_UPS:%=$(STAMP)/%)
 	@touch $@
 
-# Each keeps one core busy: side by side.
+# Each keeps one core busy: side by side, the longest first.
 $(WARM_UPS:%=$(STAMP)/%): $(STAMP)/venv $(wildcard navcore/sim/render/*.py navcore/sim/rays/*.py $(foreach room,perception perception/* localization/ndt maps/ndt,navcore/$(room)/*kernels.py))
 	$(BIN)/python -m $(@F)
 	@touch $@
@@ -73,11 +74,16 @@ $(STAMP)/frontend: $(STAMP)/npm $(shell find frontend -type f -not -path '*/node
 	cd frontend && npm run --silent build
 	@touch $@
 
-# The Chromium that is there, else apt's where we may, else Playwright's own.
-$(STAMP)/browser: $(STAMP)/venv
+# The Chromium that is there, else apt's where we may, which waits for nobody, else Playwright's own.
+$(STAMP)/chromium:
+	@mkdir -p $(STAMP)
 	@command -v chromium chromium-browser google-chrome >/dev/null \
-		|| { [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null && apt-get update -qq && apt-get install -y -qq chromium >/dev/null; } \
-		|| $(BIN)/playwright install chromium
+		|| { [ "$$(id -u)" = 0 ] && command -v apt-get && apt-get update -qq && apt-get install -y -qq chromium; } >/dev/null \
+		|| true
+	@touch $@
+
+$(STAMP)/browser: $(STAMP)/chromium $(STAMP)/venv
+	@command -v chromium chromium-browser google-chrome >/dev/null || $(BIN)/playwright install chromium
 	@touch $@
 
 clean:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import statistics
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
@@ -92,6 +93,16 @@ class Drive:
             for tick in self.ticks
             if tick.decision.status.mode is NavMode.ROW and tick.decision.status.row_id in rows
         ]
+
+
+def assert_driven_in_and_out(drive: Drive) -> None:
+    """A whole mission into a row and back: finished, close to its middle, entered before driven on the camera."""
+    last = drive.ticks[-1]
+    assert last.decision.status.state is RunState.FINISHED, last.decision.status.events
+    lateral = [abs(e) for e in drive.lateral_in_rows()]
+    assert statistics.mean(lateral) < 0.10  # m
+    assert max(lateral) < 0.30  # m
+    assert [s.after for s in drive.switches][:2] == [NavMode.ROW_ENTRY, NavMode.ROW]
 
 
 def off_line(tick: Tick, start: tuple[float, float], end: tuple[float, float]) -> float:

@@ -18,7 +18,7 @@ from navcore.mission.situation import Situation
 from navcore.planning.mission_planner import mission_for_row
 from navcore.runtime.lockstep import Tick
 from navcore.sim.world import WorldParams
-from tests.missions.conftest import Drive, new_drive, off_line, small_farm
+from tests.missions.conftest import Drive, assert_driven_in_and_out, new_drive, off_line, small_farm
 
 FARM = small_farm()
 ROWS = {row.id: row for row in FARM.rows}
@@ -65,6 +65,10 @@ def errors_beside_row(drive: Drive) -> list[tuple[float, float]]:
         lateral, std = beside_row(told(tick), row_id)
         found.append((lateral - off_line(tick, *true[row_id]), std))
     return found
+
+
+def test_the_robot_drives_into_a_row_and_back_out_in_reverse(driven: Drive) -> None:
+    assert_driven_in_and_out(driven)
 
 
 def test_in_a_row_the_robot_is_shown_as_far_beside_the_drawn_row_as_it_is_beside_the_true_one(driven: Drive) -> None:
