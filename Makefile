@@ -3,7 +3,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 STAMP := .make
-WARM_UPS := navcore.runtime.scan_warm_up navcore.sim.camera_warm_up navcore.runtime.cloud_warm_up
+WARM_UPS := navcore.runtime.scan_warm_up navcore.sim.sensor_warm_up navcore.runtime.cloud_warm_up
 # Compiling, checking and the browser's installation wait for different things: side by side, with a line each.
 MAKEFLAGS += --jobs=3
 # Half a dozen processes read the same modules at every start: they are compiled once and kept, whatever the shell says.
@@ -54,7 +54,7 @@ $(STAMP)/compiled: $(WARM_UPS:%=$(STAMP)/%)
 	@touch $@
 
 # Each keeps one core busy: side by side, the longest first.
-$(WARM_UPS:%=$(STAMP)/%): $(STAMP)/venv $(wildcard navcore/sim/render/*.py navcore/sim/rays/*.py $(foreach room,perception perception/* localization/ndt maps/ndt,navcore/$(room)/*kernels.py))
+$(WARM_UPS:%=$(STAMP)/%): $(STAMP)/venv $(wildcard navcore/sim/canopy.py navcore/sim/lidar_rays.py navcore/sim/render/*.py navcore/sim/rays/*.py $(foreach room,perception perception/* localization/ndt maps/ndt,navcore/$(room)/*kernels.py))
 	$(BIN)/python -m $(@F)
 	@touch $@
 
