@@ -13,7 +13,7 @@ from tests.browser import driving
 from tests.browser.running_station import RunningStation
 from tests.browser.witness import Witness
 
-pytestmark = pytest.mark.browser  # not realtime: no robot drives, and a station without time takes longer
+pytestmark = [pytest.mark.browser, pytest.mark.realtime]
 
 HELD_S = 420.0  # 20 poses on a machine that has other work
 

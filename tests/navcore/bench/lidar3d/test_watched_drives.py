@@ -7,9 +7,7 @@ import pytest
 from navcore.bench.lidar3d.false_alarm_figures import false_alarm_figures
 from navcore.bench.lidar3d.ndt_scans import NdtScanParams, ndt_scans
 from navcore.bench.lidar3d.watched_drives import Watched, WatchedCase, WatchParams, watch, watched_cases
-from navcore.geometry.se2 import SE2
-from navcore.localization.lidar3d.map_watch import MapWatch
-from navcore.messages import MapMatch
+from navcore.localization.lidar3d.map_watch import MapWatch, WatchedMatch
 from navcore.sim.block_drive import BlockDriveParams
 from navcore.sim.orchard import Season
 from navcore.sim.pear_block import BlockSize, tuning_block
@@ -54,8 +52,8 @@ def test_trust_that_is_taken_from_a_right_place_is_an_alarm(monkeypatch: pytest.
     assert healthy.believed > 0.9 * healthy.turns
     assert healthy.hours == pytest.approx((healthy.turns - 1) / 36_000)
 
-    def jumpy(self: MapWatch, before: tuple[MapMatch, SE2], now: MapMatch, T_odom_base: SE2) -> str:
-        return "jumped" if now.stamp_ns % 5_000_000_000 < 500_000_000 else ""
+    def jumpy(self: MapWatch, before: WatchedMatch, now: WatchedMatch) -> str:
+        return "jumped" if now.match.stamp_ns % 5_000_000_000 < 500_000_000 else ""
 
     monkeypatch.setattr(MapWatch, "_jumped", jumpy)
     assert set(watch(case).alarms) == {"jumped"}
