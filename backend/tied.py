@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import os
 import sys
 
 TIED = "navcore.runtime.tied"
 
 
 def tied(module: str, *arguments: str) -> list[str]:
-    """Command line of a Python module that ends with the thread that starts it, which has to live as long."""
-    return [sys.executable, "-m", TIED, module, *arguments]
+    """Command line, for this process to start, of a Python module that ends with the thread that starts it, which has
+    to live as long.
+    """
+    return [sys.executable, "-m", TIED, str(os.getpid()), module, *arguments]

@@ -33,7 +33,8 @@ class Child:
 
     def start(self, robot: Robot, now_s: float) -> None:
         """Start it; it ends with us, however we end."""
-        command = (sys.executable, "-m", TIED, self.spec.module, *self.spec.arguments(robot))
+        module = self.spec.module, *self.spec.arguments(robot)
+        command = sys.executable, "-m", TIED, str(os.getpid()), *module
         environment = {**ONE_THREAD, **os.environ, **self._environment}
         self._process = subprocess.Popen(command, env=environment, start_new_session=True)
         self._started_s, self._start_at_s = now_s, None

@@ -189,9 +189,10 @@ def test_processes_end_with_their_supervisor_even_when_it_is_killed(directory: P
         [sys.executable, "-c", SUPERVISOR, str(directory)], stdout=subprocess.PIPE, text=True
     )
     assert supervisor.stdout is not None
-    child = int(supervisor.stdout.readline())
-    supervisor.kill()
-    supervisor.communicate()
+    with supervisor.stdout as told:
+        child = int(told.readline())
+    supervisor.kill()  # before its child has asked to be told of that
+    supervisor.wait()
     assert ends(child)
 
 
@@ -201,7 +202,7 @@ from pathlib import Path
 from navcore.runtime.processes import CanSettings, ProcessSpec, Robot
 from navcore.runtime.supervisor import Supervisor
 directory = Path(sys.argv[1])
-sleep = lambda robot: ("-n1", "-r1", "import time; time.sleep(60)")
+sleep = lambda robot: ("-n1", "-r1", "import time; time.sleep(600)")
 table = (ProcessSpec(name="other", module="timeit", arguments=sleep),)
 robot = Robot(
     bus=directory / "bus", site=directory / "site.json", vehicle="paper_a", can=CanSettings(), gnss="tcp://h:1"
