@@ -41,7 +41,7 @@ compiled: $(STAMP)/compiled
 frontend: $(STAMP)/frontend
 browser: $(STAMP)/browser
 
-# What nobody imports, two files of three, is never compiled; the rest is at its first import.
+# What nobody imports is never compiled; the rest is at its first import.
 $(STAMP)/venv: pyproject.toml
 	@mkdir -p $(STAMP)
 	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)

@@ -38,7 +38,9 @@ class MapLocalizerParams:
     Attributes:
         voxel: clouds are thinned to one point in such a cube, m, 0.1 to 1.
         tracking: of matches from one cloud to the next. starting: of the same about a guess.
-        sure_std: at a place known to this, m, a start looks nowhere else. start: of the search where it is not.
+        sure_std: at a place known to this, m, a start looks nowhere else. again_s: one that failed is tried again
+            after so long, s: where there is no map each would take a core's time from cloud to cloud.
+        start: of the search where the place is not known so well.
         vague_std: a place known worse than this, m, is no place to search about.
         stray: a start may end no further from its guess than so many 1-sigma of it, and `apart` or `stray_turn` more,
             m and rad.
@@ -63,6 +65,7 @@ class MapLocalizerParams:
         )
     )
     sure_std: float = 0.25
+    again_s: float = 1.0
     start: MapStartParams = field(default_factory=MapStartParams)
     vague_std: float = 4.0
     stray: float = 3.0
@@ -92,6 +95,7 @@ class MapLocalizer:
         self._starter = NdtMatcher(ndt_map, params.starting)
         self._start_search = MapStart(ndt_map, NdtMatcher(ndt_map, params.tracking.matcher), params.start)
         self._told_ns = self._overruled = 0
+        self._failed_ns: int | None = None
         self._last: PlacedBase | None = None
         self._match = MapMatch(stamp_ns=0, state=MatchState.STARTING, reason="no cloud yet")
         self._uprights = StandingUprights(ndt_map)
@@ -180,7 +184,11 @@ class MapLocalizer:
 
     def _start(self, points: Floats, stamp_ns: int, T_odom_base: SE3, motion: Odometry) -> MapMatch:
         if motion.pose is not None and std_of(motion.pose) <= self._p.sure_std:
-            return self._start_at(points, T_odom_base, motion, motion.pose)
+            if self._failed_ns is not None and 0 <= stamp_ns - self._failed_ns < self._p.again_s * 1e9:
+                return self._match
+            found = self._start_at(points, T_odom_base, motion, motion.pose)
+            self._failed_ns = stamp_ns if self._last is None else None
+            return found
         told = motion.pose or motion.told
         look = self._start_search.look(points, stamp_ns, T_odom_base, self._region(told))
         if look.found is None:

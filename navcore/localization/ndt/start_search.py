@@ -39,7 +39,7 @@ class StartSearchParams:
     candidates: int = 1
 
 
-# For a start or a restart: forty times slower, and right in full leaf too. So dense that each way down is short.
+# For a start or a restart: some twenty times slower, and right in full leaf too. So dense that ways are short.
 WIDE_SEARCH = StartSearchParams(
     grid=1, points=500, steepness=0.1, step=0.2, turn_step=math.radians(3.0), candidates=40
 )  # fmt: skip

@@ -9,23 +9,29 @@ import pytest
 
 from navcore.geometry.se3 import SE3
 from navcore.localization.lidar3d.map_localizer import MapLocalizer
+from navcore.localization.ndt.ndt_matcher import NdtMatcher
+from navcore.localization.ndt.registration import Registration
 from navcore.messages import FixQuality, MapMatch, MatchState, Odometry, PoseEstimate
 from tests.navcore.localization.ndt.trellis import mapped_orchard, scan_at
 
 TRUTH = SE3.from_rpy((0.5, 0.2, 0.6))
 
 
-def started(off: float, turned_deg: float, yaw_std: float) -> MapMatch:
-    """The first cloud, with a guess that lies `off` m aside and is turned; known to 0.1 m."""
+def known(off: float, turned_deg: float, yaw_std: float) -> Odometry:
+    """By a guess that lies `off` m aside and is turned; known to 0.1 m."""
     pose = PoseEstimate(
         stamp_ns=0, x=float(TRUTH.t[0]), y=float(TRUTH.t[1]) + off, yaw=math.radians(turned_deg), v=0.0, omega=0.0,
         covariance=tuple(np.diag((0.01, 0.01, yaw_std**2)).ravel().tolist()), source="told",
     )  # fmt: skip
-    motion = Odometry(
+    return Odometry(
         stamp_ns=0, x=0.0, y=0.0, yaw=0.0, v=0.0, omega=0.0, roll=0.0, pitch=0.0, pose=pose,
         quality=FixQuality.RTK_FIXED,
     )  # fmt: skip
-    return MapLocalizer(mapped_orchard()).process(scan_at(TRUTH, 3, n=20_000), 1, motion)
+
+
+def started(off: float, turned_deg: float, yaw_std: float) -> MapMatch:
+    """The first cloud at a `known` place."""
+    return MapLocalizer(mapped_orchard()).process(scan_at(TRUTH, 3, n=20_000), 1, known(off, turned_deg, yaw_std))
 
 
 @pytest.mark.parametrize(("turned_deg", "yaw_std"), [(0.0, 0.01), (4.0, 0.01), (12.0, 0.3)])
@@ -47,3 +53,21 @@ def test_an_empty_cloud_is_told_and_is_no_place() -> None:
         stamp_ns=0, x=0.0, y=0.0, yaw=0.0, v=0.0, omega=0.0, roll=0.0, pitch=0.0, pose=None, quality=FixQuality.NONE
     )
     assert localizer.process(np.empty((0, 3)), 1, motion).state is MatchState.STARTING
+
+
+def test_where_there_is_no_map_a_start_is_tried_once_a_second_and_not_with_every_cloud(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    tried, match = list[SE3](), NdtMatcher.match
+
+    def counted(self: NdtMatcher, points: np.ndarray, guess: SE3) -> Registration:
+        tried.append(guess)
+        return match(self, points, guess)
+
+    monkeypatch.setattr(NdtMatcher, "match", counted)
+    localizer, cloud = MapLocalizer(mapped_orchard()), scan_at(TRUTH, 3, n=20_000)
+    for tenth in range(20):
+        found = localizer.process(cloud, tenth * 100_000_000, known(300.0, 0.0, 0.01))
+        assert found.state is MatchState.STARTING
+        assert "points lie where the map has any" in found.reason
+    assert len(tried) == 2
