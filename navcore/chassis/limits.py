@@ -13,7 +13,8 @@ class LimitParams:
     """Limits of the guard, outside all that the navigator asks for in good order.
 
     Attributes:
-        max_speed: m/s, 0 < max_speed <= 1.5 (Scout manual 1.3.0, data sheet).
+        max_speed: m/s, > 0: the chassis' own; 1.5 is the Scout's (manual 1.3.0, data sheet). Less than the navigator
+            asks for would take as much from every turn, too.
         max_turn_rate: rad/s, > 0; 0.75 as in paper A.
         max_acceleration: growth of |v|, m/s^2, > 0. Braking is never limited.
         max_angular_acceleration: growth of |omega|, rad/s^2, > 0.

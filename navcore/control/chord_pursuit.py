@@ -28,7 +28,7 @@ class ChordPursuit:
     It knows no delay, no slip, no curvature; the benchmark runs it beside ours.
     """
 
-    turn_gain = 1.0
+    turn_gain, slip = 1.0, 0.0
 
     def __init__(self, params: ChordPursuitParams = ChordPursuitParams()) -> None:
         self._params = params

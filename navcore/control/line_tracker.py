@@ -50,6 +50,8 @@ class LineTracker:
     straighten up.
     """
 
+    slip = 0.0
+
     def __init__(
         self,
         params: LineTrackerParams = LineTrackerParams(),

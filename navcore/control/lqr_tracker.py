@@ -37,7 +37,7 @@ class LqrTrackerParams:
     delay_known: bool = True
     push_known: bool = True
     lqr: LateralLqrParams = field(default_factory=LateralLqrParams)
-    scanned: LateralLqrParams = field(default_factory=lambda: LateralLqrParams(turn=0.3))
+    scanned: LateralLqrParams = field(default_factory=lambda: LateralLqrParams(lateral=0.04, turn=0.3))
     slip: TurnSlipParams = field(default_factory=TurnSlipParams)
     drift: SideDriftParams = field(default_factory=SideDriftParams)
 
@@ -64,6 +64,11 @@ class LqrTracker:
     def turn_gain(self) -> float:
         """Share of a commanded turn rate that the ground gives, as learnt so far."""
         return self._slip.gain
+
+    @property
+    def slip(self) -> float:
+        """Curvature that the ground adds to what is steered, 1/m, + left."""
+        return self._slip.slip if self._params.push_known else 0.0
 
     def reset(self) -> None:
         """See `Controller.reset`; what was learnt of the ground's turn response stays."""

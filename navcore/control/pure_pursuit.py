@@ -59,7 +59,7 @@ class PurePursuit:
     It knows no delay, no slip, no curvature; the benchmarks run it beside `LineTracker`.
     """
 
-    turn_gain = 1.0
+    turn_gain, slip = 1.0, 0.0
 
     def __init__(self, params: PurePursuitParams = PurePursuitParams()) -> None:
         self._params = params

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from navcore.control.target_line import TargetLine
 
 TURNING, LEANING = "curve ahead: turn rate is limited", "curve ahead: sideways pull"
+PUSHED = "the ground pushes the robot round"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -23,6 +24,7 @@ class SpeedLimit:
 class SpeedRegulationParams:
     """Attributes:
     max_turn_rate: rad/s of command (paper A: 0.75); `turn_share` of it is planned for curves, the rest corrects.
+    push_share: of it for what the ground adds to a curve, which comes unforeseen and leaves more to be corrected.
     max_lateral_acceleration: m/s^2; 0.5 keeps a load of crates standing.
     braking: m/s^2, comfortable; at most the vehicle's own.
     reaction: s from decision to the first braking (dead time and lag of the chassis).
@@ -36,6 +38,7 @@ class SpeedRegulationParams:
 
     max_turn_rate: float = 0.75
     turn_share: float = 0.75
+    push_share: float = 0.5
     max_lateral_acceleration: float = 0.5
     braking: float = 0.4
     reaction: float = 0.26
@@ -70,11 +73,15 @@ def stopping_distance(v: float, params: SpeedRegulationParams) -> float:
     return v * params.reaction + v * v / (2.0 * params.braking)
 
 
+def turn_speed(curvature: float, turn_gain: float, share: float, params: SpeedRegulationParams) -> float:
+    """At which so large a share of the turn rate is asked for on this ground, m/s, for a curvature, 1/m."""
+    return share * params.max_turn_rate * turn_gain / max(abs(curvature), 1e-6)
+
+
 def curve_speed(curvature: float, turn_gain: float, params: SpeedRegulationParams) -> tuple[float, str]:
     """What a curve (1/m) allows by turn rate on this ground and by lateral acceleration, m/s, and which of them."""
-    k = max(abs(curvature), 1e-6)
-    turning = params.turn_share * params.max_turn_rate * turn_gain / k
-    leaning = math.sqrt(params.max_lateral_acceleration / k)
+    turning = turn_speed(curvature, turn_gain, params.turn_share, params)
+    leaning = math.sqrt(params.max_lateral_acceleration / max(abs(curvature), 1e-6))
     return (turning, TURNING) if turning <= leaning else (leaning, LEANING)
 
 
@@ -88,6 +95,15 @@ def curve_limit(target: TargetLine, turn_gain: float, params: SpeedRegulationPar
         if speed < tightest_speed:
             tightest_speed, why = speed, reason
     return SpeedLimit(speed=tightest_speed, reason=why)
+
+
+def push_limit(curvature: float, push: float, turn_gain: float, params: SpeedRegulationParams) -> SpeedLimit:
+    """What steering can hold the robot on a line of `curvature` at, where the ground adds the curvature `push`, 1/m.
+
+    A side that slips adds as much to the turn as the robot is fast, whatever the steering.
+    """
+    speed = turn_speed(curvature - push, turn_gain, params.push_share, params)
+    return SpeedLimit(speed=speed, reason=PUSHED)
 
 
 def end_limit(remaining: float | None, params: SpeedRegulationParams, end_speed: float = 0.0) -> SpeedLimit:
@@ -137,7 +153,7 @@ class SpeedRegulation:
 
     def regulate(
         self, target: TargetLine, *, wanted: float, now_ns: int, turn_gain: float, lateral_std: float | None,
-        capturing: bool = False, end_speed: float = 0.0, others: tuple[SpeedLimit, ...] = (),
+        capturing: bool = False, end_speed: float = 0.0, push: float = 0.0, others: tuple[SpeedLimit, ...] = (),
     ) -> SpeedLimit:  # fmt: skip
         """Speed for this tick with the tightest cause.
 
@@ -145,12 +161,14 @@ class SpeedRegulation:
             turn_gain: share of a commanded turn rate that reaches the ground.
             lateral_std: 1-sigma of the position across the line, m, None if not known (then the answer is 0).
             end_speed: speed at which the line's end may be passed.
+            push: curvature that the ground adds to what is steered, 1/m, + left.
             others: limits found elsewhere (zones, events).
         """
         p = self._params
         limit = tightest((
             SpeedLimit(speed=wanted, reason="as planned"),
             curve_limit(target, turn_gain, p),
+            push_limit(target.curvature_ahead(0.0), push, turn_gain, p),
             end_limit(target.remaining, p, end_speed),
             deviation_limit(target.lateral_error, capturing, p),
             quality_limit(lateral_std, wanted, p),

@@ -62,6 +62,10 @@ class Controller(Protocol):
     def turn_gain(self) -> float:
         """Share of a commanded turn rate that it believes to reach the ground."""
 
+    @property
+    def slip(self) -> float:
+        """Curvature that it believes the ground to add to what is steered, 1/m, + left."""
+
     def steer(self, target: TargetLine, motion: Motion, *, v: float, look_ahead: float, now_ns: int) -> Steering:
         """Command for this tick at the wanted speed `v` >= 0."""
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import exp
 
+from navcore.control.expected_turn import ExpectedTurn
 from navcore.control.prediction import ActuatorParams, CommandHistory
 
 
@@ -33,10 +34,10 @@ class TurnResponse:
     """
 
     def __init__(self, params: TurnResponseParams, actuator: ActuatorParams) -> None:
-        self._params, self._actuator = params, actuator
+        self._params, self._expected = params, ExpectedTurn(actuator)
         self._measured_expected = params.prior * params.initial
         self._expected_squared = params.prior
-        self._expected, self._last_ns = 0.0, -1
+        self._last_ns = -1
 
     @property
     def gain(self) -> float:
@@ -44,37 +45,23 @@ class TurnResponse:
         p = self._params
         return min(max(self._measured_expected / self._expected_squared, p.lowest), p.highest)
 
-    @property
-    def expected(self) -> float:
-        """Turn rate of a robot without slip at the last tick, rad/s."""
-        return self._expected
-
     def standstill(self) -> None:
         """The wheels have stopped; what was learnt of the ground stays."""
-        self._expected, self._last_ns = 0.0, -1
+        self._expected.standstill()
+        self._last_ns = -1
 
     def update(self, now_ns: int, measured: float, history: CommandHistory) -> None:
         """One tick: the true turn rate (gyro) beside what the commands under way should give."""
         dt = min((now_ns - self._last_ns) * 1e-9, 0.2) if self._last_ns >= 0 else 0.0
         self._last_ns = now_ns
-        told = history.acting_at(now_ns)
-        if told is None or dt <= 0.0:
-            return
-        self._expected = told[1] + (self._expected - told[1]) * exp(-dt / self._actuator.lag)
-        if abs(self._expected) > self._params.least_turn:
-            self._learn(measured, dt)
-
-    def compare(self, now_ns: int, measured: float, expected: float) -> None:
-        """One tick: the true turn rate (gyro) beside the one that the wheels tell, rad/s."""
-        dt = min((now_ns - self._last_ns) * 1e-9, 0.2) if self._last_ns >= 0 else 0.0
-        self._last_ns, self._expected = now_ns, expected
+        expected = self._expected.update(now_ns, history)
         if dt > 0.0 and abs(expected) > self._params.least_turn:
-            self._learn(measured, dt)
+            self._learn(measured, expected, dt)
 
-    def _learn(self, measured: float, dt: float) -> None:
+    def _learn(self, measured: float, expected: float, dt: float) -> None:
         keep = exp(-dt / self._params.memory)
         p = self._params
-        self._expected_squared = keep * self._expected_squared + self._expected**2 * dt + (1 - keep) * 0.2 * p.prior
+        self._expected_squared = keep * self._expected_squared + expected**2 * dt + (1 - keep) * 0.2 * p.prior
         self._measured_expected = (
-            keep * self._measured_expected + measured * self._expected * dt + (1 - keep) * 0.2 * p.prior * p.initial
+            keep * self._measured_expected + measured * expected * dt + (1 - keep) * 0.2 * p.prior * p.initial
         )

@@ -174,7 +174,7 @@ class Driver:
         ))  # fmt: skip
         return self.regulation.regulate(
             target, wanted=wanted.speed, now_ns=now_ns, turn_gain=self.controller.turn_gain, lateral_std=0.0,
-            capturing=True, others=limits,
+            capturing=True, push=self.controller.slip, others=limits,
         )  # fmt: skip
 
     def _steer(self, target: TargetLine, pilot: Pilot, motion: Motion, speed: float, now_ns: int) -> Steering:

@@ -10,7 +10,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Protocol
 
-from navcore.chassis.guard import Guard
+from navcore.chassis.guard import Guard, GuardParams
+from navcore.chassis.limits import LimitParams
 from navcore.chassis.protocol import ChassisState
 from navcore.chassis.scout_can import Frame
 from navcore.drivers.nmea_stream import NmeaStream
@@ -90,7 +91,10 @@ class Lockstep:
         self._matches: deque[tuple[int, MapMatch]] = deque()
         self.params = params or LockstepParams()
         self.world, self.navigator, self.eye = world, navigator, eye
-        self.guard, self.ecu, self.receiver = Guard(), ScoutEcu(), NmeaStream()
+        limits = LimitParams(
+            max_speed=navigator.vehicle.max_speed, max_turn_rate=navigator.vehicle.max_turn_rate
+        )  # fmt: skip
+        self.guard, self.ecu, self.receiver = Guard(GuardParams(limits=limits)), ScoutEcu(), NmeaStream()
         self.now_ns = self.params.start_ns
         self.listeners: list[Callable[[Tick], None]] = []
         self._requests: deque[Request] = deque()

@@ -12,8 +12,6 @@ from navcore.runtime.simulation import SimulationParams
 from navcore.transport.endpoints import Endpoints
 from navcore.vehicle import PROFILES, VehicleParams
 
-SCOUT_MAX_SPEED = 1.5
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CanSettings:
@@ -81,7 +79,7 @@ def guard_arguments(robot: Robot) -> tuple[str, ...]:
     return (
         "--command", str(endpoints.guard_command), "--stop", str(endpoints.guard_stop),
         "--state", str(endpoints.chassis_state), "--interface", robot.can.interface, "--channel", robot.can.channel,
-        "--max-speed", str(min(limits.max_speed, SCOUT_MAX_SPEED)), "--max-turn-rate", str(limits.max_turn_rate),
+        "--max-speed", str(limits.max_speed), "--max-turn-rate", str(limits.max_turn_rate),
         *options,
     )  # fmt: skip
 

@@ -17,6 +17,7 @@ from navcore.control.speed_regulation import (
     curve_speed,
     deviation_limit,
     end_limit,
+    push_limit,
     quality_limit,
     stopping_distance,
 )
@@ -33,10 +34,19 @@ def on_a_circle(radius: float) -> TargetLine:
     return target_from_path(path, SE2(), source="gnss", stamp_ns=0, max_age_ns=1)
 
 
-def settled(target: TargetLine, wanted: float = 0.8, std: float | None = 0.02, *others: SpeedLimit) -> SpeedLimit:
+STRAIGHT = target_from_path(
+    Polyline(np.array(((0.0, 0.0), (50.0, 0.0)))), SE2(20.0, 0.0, 0.0), source="gnss", stamp_ns=0, max_age_ns=1
+)
+
+
+def settled(
+    target: TargetLine, wanted: float = 0.8, std: float | None = 0.02, *others: SpeedLimit, push: float = 0.0
+) -> SpeedLimit:
     regulation = SpeedRegulation()
     regulation.reset(5.0)
-    return regulation.regulate(target, wanted=wanted, now_ns=0, turn_gain=0.5, lateral_std=std, others=tuple(others))
+    return regulation.regulate(
+        target, wanted=wanted, now_ns=0, turn_gain=0.5, lateral_std=std, push=push, others=tuple(others)
+    )
 
 
 @given(st.floats(0.1, 2.0))
@@ -55,6 +65,19 @@ def test_a_tight_curve_is_driven_no_faster_than_the_robot_can_turn() -> None:
     assert here < limit.speed < braking_speed(0.2, here, P)
     assert "curve" in limit.reason
     assert curve_speed(0.0, 0.5, P)[0] > 100.0
+
+
+def test_where_the_ground_turns_the_robot_it_drives_only_as_fast_as_it_can_steer_against_that() -> None:
+    limit = settled(STRAIGHT, 2.0, push=0.25)
+    assert limit.speed == pytest.approx(P.push_share * P.max_turn_rate * 0.5 / 0.25)
+    assert "pushes" in limit.reason
+    assert settled(STRAIGHT, 2.0, push=-0.25).speed == pytest.approx(limit.speed)
+    assert settled(STRAIGHT, 0.8, push=0.03).speed == 0.8
+
+
+def test_ground_that_pushes_the_way_the_line_bends_slows_nobody() -> None:
+    assert push_limit(0.2, 0.2, 0.5, P).speed > 100.0
+    assert push_limit(0.2, -0.2, 0.5, P).speed == pytest.approx(push_limit(0.0, 0.4, 0.5, P).speed)
 
 
 def test_lateral_acceleration_counts_where_turning_is_easy() -> None:
