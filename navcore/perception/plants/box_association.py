@@ -51,7 +51,7 @@ class BoxAssociationParams:
     wider: float = 0.65
     size: float = 0.35
     reach: float = 12.0
-    sureness: float = 3.0
+    sureness: float = 6.0
     alone: float = 6.0
     fewest: int = 4
     known_pitch: float = 0.4
