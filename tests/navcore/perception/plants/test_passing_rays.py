@@ -34,9 +34,15 @@ def test_no_ray_passes_a_trunk_that_stands_there() -> None:
 
 
 def test_all_rays_pass_a_place_where_nothing_stands_before_a_wall_or_open_land() -> None:
-    wall = np.array(((4.5, 1.5),))
+    wall, beside = np.array(((4.5, 1.5),)), np.array(((3.0, 1.4),))
     assert past(*seen(wall, np.array((1.0,)))) == 1.0
-    assert past(*seen(np.empty((0, 2)), np.empty(0))) == 1.0
+    assert past(*seen(beside, DIAMETER)) == 1.0
+
+
+def test_where_no_ray_comes_back_at_all_the_sensor_may_be_covered_and_passes_nothing() -> None:
+    far_aside = np.array(((3.0, -1.0),))
+    assert past(*seen(far_aside, DIAMETER)) == 0.0
+    assert past(*seen(np.empty((0, 2)), np.empty(0))) == 0.0
 
 
 def test_a_ray_that_ends_before_the_place_does_not_say_what_stands_there() -> None:
@@ -44,7 +50,7 @@ def test_a_ray_that_ends_before_the_place_does_not_say_what_stands_there() -> No
 
 
 def test_where_the_sensor_took_no_rays_nothing_is_known() -> None:
-    angles, distances = seen(np.empty((0, 2)), np.empty(0))
+    angles, distances = seen(np.array(((4.5, 1.5),)), np.array((1.0,)))
     bearing = math.atan2(1.0, 2.7)
     elsewhere = np.abs(np.remainder(angles - bearing + math.pi, 2.0 * math.pi) - math.pi) > 0.3
     assert past(angles[elsewhere], distances[elsewhere]) == 0.0
@@ -69,7 +75,8 @@ def test_a_place_is_looked_at_from_where_the_robot_was_when_its_rays_were_taken(
 
 def test_a_sensor_that_hangs_upside_down_sees_the_same() -> None:
     hanging = LidarMount(x=0.3, y=0.0, z=0.55, roll=math.pi)
-    angles, distances = scan_of((PLACE - (0.3, 0.0)) * (1.0, -1.0), DIAMETER)
+    trunk_and_wall = np.array(((3.0, 1.0), (4.5, -1.5)))
+    angles, distances = scan_of((trunk_and_wall - (0.3, 0.0)) * (1.0, -1.0), np.array((0.1, 1.0)))
     assert share_past(PLACE, DIAMETER, angles, distances, hanging, SE2(), MARGIN)[0] == 0.0
     assert share_past(PLACE * (1.0, -1.0), DIAMETER, angles, distances, hanging, SE2(), MARGIN)[0] == 1.0
 

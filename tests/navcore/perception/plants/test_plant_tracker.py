@@ -158,7 +158,7 @@ def test_what_scans_look_past_is_hardly_a_trunk_until_they_meet_it_again() -> No
     tracker, place = PlantTracker(MOUNT), (2.0, 1.0)
     watched(tracker, [place], [0.1], 10)
     before = sureness_at(tracker, place)
-    watched(tracker, [], [], 10)
+    watched(tracker, [(3.6, 1.8)], [0.4], 10)
     assert sureness_at(tracker, place) < 0.05 < 0.5 < before
     watched(tracker, [place], [0.1], 10)
     assert sureness_at(tracker, place) == pytest.approx(before)
