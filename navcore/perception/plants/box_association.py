@@ -51,12 +51,12 @@ class BoxAssociationParams:
     wider: float = 0.65
     size: float = 0.35
     reach: float = 12.0
-    sureness: float = 3.0
-    alone: float = 6.0
+    sureness: float = 7.0
+    alone: float = 7.0
     fewest: int = 4
     known_pitch: float = 0.4
     clear: float = 1.5
-    together: float = 0.2
+    together: float = 0.25
 
 
 def associate(

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from navcore.geometry.lidar_mount import LidarMount
 from navcore.geometry.se2 import SE2
 from navcore.perception.plants.alignment_kernels import mutual_nearest
+from navcore.perception.plants.passing_rays import share_past
 from navcore.perception.plants.plant_evidence import PlantEvidence, PlantEvidenceParams
 from navcore.perception.plants.scan_alignment import ScanAlignmentParams, align
 from navcore.perception.plants.scanned_plants import ScannedPlants, no_plants
@@ -35,6 +36,8 @@ class PlantTrackerParams:
         steady: 1-sigma by which a plant's place may wander between two scans, m: the tracker's frame is not perfect.
         least_std: no plant is known better than that, m: bark, lean.
         anchors: plants met in so many scans tell where the robot is.
+        beyond: a ray that ends further beyond a plant than that, m, passes it.
+        past: a scan that does not meet a plant looks past it, if more than that share of the rays at it pass.
         behind: plants further away than that are forgotten, m.
         young: one that is not met again is forgotten after so many scans, if it was met in fewer than `anchors`.
     """
@@ -45,6 +48,8 @@ class PlantTrackerParams:
     steady: float = 0.002
     least_std: float = 0.008
     anchors: int = 3
+    beyond: float = 0.15
+    past: float = 0.7
     behind: float = 14.0
     young: int = 4
 
@@ -78,6 +83,13 @@ class PlantTracker:
         self._take_in(self._pose.apply(xy), std, trunks)
         self._clear()
         return before.inverse() @ self._pose
+
+    def look_past(self, angles: Floats, distances: Floats, turn: SE2 = SE2()) -> None:
+        """What the rays (N,) of the scan just seen, as in `LidarScan`, say against plants; `turn` as in `see`."""
+        p, met = self._params, self._since_hit == 0
+        xy = self._pose.inverse().apply(self._plants.xy)
+        share = share_past(xy, self._plants.diameter, angles, distances, self._mount, turn, p.beyond)
+        self._evidence.scan(met, ~met & (share > p.past))
 
     def plants(self, since: SE2 = SE2()) -> ScannedPlants:
         """All that were met more than once, in `base_link`, the robot having driven `since` after the last scan."""

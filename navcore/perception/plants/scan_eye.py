@@ -57,9 +57,11 @@ class ScanEye:
         angles, distances = np.asarray(scan.angles), np.asarray(scan.distances)
         back = distances > 0.0
         self.problem = "" if back.any() else "the LiDAR sees nothing at all: is it covered?"
-        motion = self._last[1].inverse() @ now if self._last else SE2()
+        motion, turn = self._last[1].inverse() @ now if self._last else SE2(), began.inverse() @ now
         self._ends = self.mount.ends(angles[back], distances[back])
-        self._tracker.see(self._clusters.find(angles, distances), motion, began.inverse() @ now)
+        self._tracker.see(self._clusters.find(angles, distances), motion, turn)
+        if not self.problem:
+            self._tracker.look_past(angles, distances, turn)
         self._last = scan.stamp_ns, now
 
     def plants(self, stamp_ns: int, trail: OdometryTrail) -> ScannedPlants | None:

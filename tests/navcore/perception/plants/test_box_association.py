@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from navcore.geometry.lidar_mount import robot_lidar
 from navcore.geometry.pinhole import PinholeCamera, robot_camera
+from navcore.geometry.se2 import SE2
 from navcore.messages import DetectedObject, ObjectKind
 from navcore.perception.plants.box_association import associate
+from navcore.perception.plants.plant_tracker import PlantTracker
 from navcore.perception.plants.scanned_plants import ScannedPlants
+from navcore.perception.scan.scan_clusters import ScanClusters
+from tests.navcore.perception.scan.round_trunks import scan_of
 
 CAMERA = robot_camera()
 WIDER = 1.9  # a box about a trunk is wider than the trunk
@@ -83,3 +89,19 @@ def test_near_feet_tell_the_pitch_by_which_far_plants_are_found() -> None:
     nodding = replace(CAMERA, pitch=CAMERA.pitch + 0.035)
     row = (*ROW, (7.0, 1.3), (7.1, -1.3))
     assert pairs(boxed(row, nodding), scanned(row)).tolist() == list(range(8))
+
+
+def test_a_weed_in_line_with_a_trunk_does_not_get_its_box_once_scans_looked_past_it() -> None:
+    """0.5 m before the trunk; two scans of three find a way through its leaves, and meet the trunk."""
+    trunk, weed = (4.7, 1.4), (4.22, 1.257)  # by the LiDAR, which sits 0.3 m ahead of `base_link`
+    for looks, is_trunk in ((PlantTracker.look_past, True), (lambda *_: None, False)):
+        tracker = PlantTracker(robot_lidar())
+        for i in range(24):
+            seen = [trunk] if i % 3 else [trunk, weed]
+            angles, distances = scan_of(np.array(seen), np.full(len(seen), 0.1), noise=0.005, seed=i)
+            tracker.see(ScanClusters().find(angles, distances), SE2())
+            looks(tracker, angles, distances)
+        plants = tracker.plants()
+        found = associate(boxed(((4.76, 1.329),), diameter=0.1), plants, CAMERA, 0.0)
+        got = found[0] >= 0 and math.dist(plants.xy[found[0]], (5.0, 1.4)) < 0.1
+        assert got == is_trunk

@@ -138,3 +138,35 @@ def test_what_passes_by_is_forgotten_and_what_stands_is_not() -> None:
         tracker.see(ScanClusters().find(*scan_of(places, np.array([0.1, 0.2]))), SE2())
     assert len(tracker.plants()) == 1
     assert math.dist(tracker.plants().xy[0], (2.3, 1.2)) < 0.03  # m, the mount being 0.3 m ahead
+
+
+def watched(tracker: PlantTracker, places: list[tuple[float, float]], diameters: list[float], count: int) -> None:
+    """So many scans of what stands about the sensor, seen and looked past."""
+    for i in range(count):
+        angles, distances = scan_of(np.array(places).reshape(-1, 2), np.array(diameters), noise=0.005, seed=i)
+        tracker.see(ScanClusters().find(angles, distances), SE2())
+        tracker.look_past(angles, distances)
+
+
+def sureness_at(tracker: PlantTracker, place: tuple[float, float]) -> float:
+    """Of the plant that stands there, by the sensor."""
+    plants = tracker.plants()
+    return float(plants.sureness[np.argmin(np.linalg.norm(plants.xy - place - (MOUNT.x, MOUNT.y), axis=1))])
+
+
+def test_what_scans_look_past_is_hardly_a_trunk_until_they_meet_it_again() -> None:
+    tracker, place = PlantTracker(MOUNT), (2.0, 1.0)
+    watched(tracker, [place], [0.1], 10)
+    before = sureness_at(tracker, place)
+    watched(tracker, [(3.6, 1.8)], [0.4], 10)
+    assert sureness_at(tracker, place) < 0.05 < 0.5 < before
+    watched(tracker, [place], [0.1], 10)
+    assert sureness_at(tracker, place) == pytest.approx(before)
+
+
+def test_a_trunk_behind_something_is_as_sure_as_before() -> None:
+    tracker, place = PlantTracker(MOUNT), (2.0, 1.0)
+    watched(tracker, [place], [0.1], 10)
+    before = sureness_at(tracker, place)
+    watched(tracker, [(1.0, 0.5)], [0.2], 10)
+    assert sureness_at(tracker, place) == pytest.approx(before)
