@@ -84,10 +84,9 @@ class RowEye:
         for scan in scans:
             self._scan_eye.take(scan, self._trail)
         found = self._scan_eye.plants(stamp_ns, self._trail)
-        if found is None:
-            return None
-        turned = SE2(0.0, 0.0, math.pi) if request.camera is CameraName.REAR else SE2()
-        return found.seen_from(turned)
+        if found is None or request.camera is CameraName.FRONT:
+            return found
+        return found.seen_from(SE2(0.0, 0.0, math.pi))
 
     def _checked(self, view: CameraView) -> CameraView:
         """With what its trunks say of the camera's mount."""
