@@ -31,7 +31,7 @@ def image_line(camera: PinholeCamera, *, offset: float, heading: float, pitch: f
     c, s = math.cos(heading), math.sin(heading)
     way = (-offset * s - camera.x, offset * c - camera.y, -camera.z)
     normal = np.array((s * way[2], -c * way[2], c * way[1] - s * way[0]))
-    R = camera.R_base_camera() if pitch == 0.0 else replace(camera, pitch=camera.pitch + pitch).R_base_camera()
+    R = camera.R_base_camera() if pitch == 0.0 else camera.pitched(pitch).R_base_camera()
     a, b, d = normal @ R
     nx, ny = a / camera.fx, b / camera.fy
     norm = math.hypot(nx, ny)

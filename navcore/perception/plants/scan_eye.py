@@ -73,12 +73,14 @@ class ScanEye:
             self.problem = f"the LiDAR has been silent for {silent_s:.1f} s"
         return None if self.problem else self._tracker.plants(self._last[1].inverse() @ at)
 
-    def ends(self, stamp_ns: int, trail: OdometryTrail) -> Floats:
-        """Where the newest scan's rays end, (N, 3) in `base_link` at that moment, m; for drawing."""
+    def ends(self, stamp_ns: int, trail: OdometryTrail) -> tuple[Floats, SE2]:
+        """Where the newest scan's rays ended, (N, 3) in `base_link`, m, and where that lay, seen from `base_link` at
+        the given moment; for drawing.
+        """
         at = trail.at(stamp_ns)
         if self._last is None or at is None:
-            return np.empty((0, 3))
-        return np.column_stack(((at.inverse() @ self._last[1]).apply(self._ends[:, :2]), self._ends[:, 2]))
+            return np.empty((0, 3)), SE2()
+        return self._ends, at.inverse() @ self._last[1]
 
     def told(self, view: CameraView, expected: NDArray[np.int64]) -> None:
         """What a picture makes of the plants: which it shows, and which it does not of those `expected` (numbers)."""
