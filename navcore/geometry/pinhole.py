@@ -10,6 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
+# Axes, centre and lens of a camera, for compiled arithmetic.
+Compiled = tuple[Floats, tuple[float, float, float], tuple[float, float, float, float]]
 
 # Optical axes (u right, v down, depth forward) of a camera that looks along base_link x.
 R_BASE_OPTICAL = np.array([[0.0, 0.0, 1.0], [-1.0, 0.0, 0.0], [0.0, -1.0, 0.0]])
@@ -59,7 +61,7 @@ class PinholeCamera:
         """Rotation from optical axes to `base_link`, shape (3, 3), read only."""
         return _R_base_camera(self.roll, self.pitch, self.yaw)
 
-    def compiled(self) -> tuple[Floats, tuple[float, float, float], tuple[float, float, float, float]]:
+    def compiled(self) -> Compiled:
         """As compiled arithmetic takes it: its axes in `base_link` (3, 3), its centre, m, and fx, fy, cx, cy."""
         return self.R_base_camera(), (self.x, self.y, self.z), (self.fx, self.fy, self.cx, self.cy)
 

@@ -142,6 +142,4 @@ def nearest_plants(plants: Floats, furthest: float, most: int) -> Floats:
 
 def foot_rays(camera: PinholeCamera, feet: Floats) -> Floats:
     """Rays (1, s, -t) in the driving frame, as (s, t), (N, 2), of pixels (N, 2); NaN for those not ahead."""
-    d = camera.rays(feet)
-    ahead = np.where(d[:, :1] > 1e-3, d[:, :1], np.nan)
-    return np.asarray(np.column_stack((d[:, 1], -d[:, 2])) / ahead, dtype=np.float64)
+    return np.asarray(foot_kernels.rays(feet, camera.compiled()), dtype=np.float64)

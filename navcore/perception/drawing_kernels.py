@@ -1,6 +1,6 @@
 """Compiled arithmetic of what is drawn over a picture and beside it: rounded, for it travels with every picture.
 
-A camera is (axes, place, lens) as `PinholeCamera.compiled` tells it.
+A camera is as `PinholeCamera.compiled` tells it.
 """
 
 from __future__ import annotations
@@ -11,8 +11,9 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from navcore.geometry.pinhole import Compiled as Camera
+
 Floats = NDArray[np.float64]
-Camera = tuple[Floats, tuple[float, float, float], tuple[float, float, float, float]]
 
 # Of a pixel, and of a metre.
 TENTHS, HUNDREDTHS = 10.0, 100.0

@@ -12,12 +12,27 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from navcore.geometry.pinhole import Compiled as Camera
 from navcore.perception.line_consensus import Floats, Mount
 
 Ints = NDArray[np.int64]
 
 # Nearer ones tell nothing of the camera's pitch, m: their feet are hidden, or at the picture's edge.
 NEAREST_PAIR = 0.8
+
+
+@njit(cache=True)
+def rays(feet: Floats, camera: Camera) -> Floats:
+    """Of pixels (N, 2) seen by a camera as `PinholeCamera.compiled` tells it."""
+    axes, _, (fx, fy, cx, cy) = camera
+    out = np.full((len(feet), 2), np.nan)
+    for i in range(len(feet)):
+        u, v = (feet[i, 0] - cx) / fx, (feet[i, 1] - cy) / fy
+        ahead = u * axes[0, 0] + v * axes[0, 1] + axes[0, 2]
+        if ahead > 1e-3:
+            out[i, 0] = (u * axes[1, 0] + v * axes[1, 1] + axes[1, 2]) / ahead
+            out[i, 1] = -(u * axes[2, 0] + v * axes[2, 1] + axes[2, 2]) / ahead
+    return out
 
 
 @njit(cache=True)
