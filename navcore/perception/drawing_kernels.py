@@ -39,6 +39,23 @@ def pixel(x: float, y: float, z: float, camera: Camera) -> tuple[float, float]:
 
 
 @njit(cache=True)
+def image_line(offset: float, heading: float, camera: Camera) -> tuple[float, float, float]:
+    """Unit normal and offset of the image of the ground line with that offset, m, and heading, rad.
+
+    A line's image is the normal of the plane through it and the camera's centre: of its direction, and of the way
+    from the camera to one of its points. Nothing is divided, so lines beside or behind the camera are no exception.
+    """
+    axes, place, (fx, fy, cx, cy) = camera
+    c, s = math.cos(heading), math.sin(heading)
+    wx, wy, wz = -offset * s - place[0], offset * c - place[1], -place[2]
+    x, y, z = s * wz, -c * wz, c * wy - s * wx
+    nx = (x * axes[0, 0] + y * axes[1, 0] + z * axes[2, 0]) / fx
+    ny = (x * axes[0, 1] + y * axes[1, 1] + z * axes[2, 1]) / fy
+    far, norm = x * axes[0, 2] + y * axes[1, 2] + z * axes[2, 2], math.hypot(nx, ny)
+    return nx / norm, ny / norm, (nx * cx + ny * cy - far) / norm
+
+
+@njit(cache=True)
 def scan(
     ends: Floats, pose: tuple[float, float, float], camera: Camera, width_px: int, height_px: int
 ) -> tuple[Floats, Floats]:
