@@ -95,7 +95,8 @@ def _told_pitch(
     if len(paired) < p.fewest:
         return None
     ahead = plants.xy[found[paired], 0] - camera.x
-    return median((np.arctan(camera.z / ahead) - down[paired]).tolist())
+    told: list[float] = (np.arctan(camera.z / ahead) - down[paired]).tolist()
+    return median(told)
 
 
 def _assigned(costs: Floats, xy: Floats, params: BoxAssociationParams) -> Ints:
