@@ -37,15 +37,17 @@ def averaged(
         evidence[at], means[at] = plain + chances[0], to_asked @ found
         bent = bends * w
         along = bent @ white
+        side = asked_bends - along @ to_asked.T
         for k in range(len(bends)):
             sure, told_size, at = prior[-1], 0.0, at + 1
             for i in range(len(off)):
                 sure, told_size = sure + bent[k, i] * bends[k, i], told_size + bent[k, i] * off[i]
             for j in range(len(found)):
                 sure, told_size = sure - along[k, j] * along[k, j], told_size - along[k, j] * found[j]
-            size, side = told_size / sure, asked_bends[k] - to_asked @ along[k]
+            size, std = told_size / sure, 1.0 / math.sqrt(sure)
             evidence[at] = plain + 0.5 * (size * size * sure - math.log(sure / prior[-1])) + chances[k + 1]
-            means[at], sides[at] = means[s * count] + size * side, side / math.sqrt(sure)
+            for q in range(n):
+                means[at, q], sides[at, q] = means[s * count, q] + size * side[k, q], side[k, q] * std
     share = np.exp(evidence - np.max(evidence))
     share /= np.sum(share)
     mean = share @ means
