@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
+# Axes, centre and lens of a camera, for compiled arithmetic.
+Compiled = tuple[Floats, tuple[float, float, float], tuple[float, float, float, float]]
 
 # Optical axes (u right, v down, depth forward) of a camera that looks along base_link x.
 R_BASE_OPTICAL = np.array([[0.0, 0.0, 1.0], [-1.0, 0.0, 0.0], [0.0, -1.0, 0.0]])
@@ -59,6 +61,14 @@ class PinholeCamera:
         """Rotation from optical axes to `base_link`, shape (3, 3), read only."""
         return _R_base_camera(self.roll, self.pitch, self.yaw)
 
+    def compiled(self) -> Compiled:
+        """As compiled arithmetic takes it: its axes in `base_link` (3, 3), its centre, m, and fx, fy, cx, cy."""
+        return self.R_base_camera(), (self.x, self.y, self.z), (self.fx, self.fy, self.cx, self.cy)
+
+    def pitched(self, more: float) -> PinholeCamera:
+        """The same camera, looking further down by that, rad."""
+        return _pitched(self, more)
+
     def project(self, points_base: Floats) -> Floats:
         """Pixels (N, 2) of points (N, 3) in `base_link`; NaN where a point is not in front of the camera."""
         p = (np.asarray(points_base, dtype=np.float64) - (self.x, self.y, self.z)) @ self.R_base_camera()
@@ -83,6 +93,11 @@ def _R_base_camera(roll: float, pitch: float, yaw: float) -> Floats:
     R = rotation_from_rpy(roll, pitch, yaw) @ R_BASE_OPTICAL
     R.setflags(write=False)
     return np.asarray(R)
+
+
+@lru_cache(maxsize=8)  # likewise
+def _pitched(camera: PinholeCamera, more: float) -> PinholeCamera:
+    return replace(camera, pitch=camera.pitch + more)
 
 
 def robot_camera(*, rear: bool = False, width_px: int = 640, height_px: int = 360) -> PinholeCamera:

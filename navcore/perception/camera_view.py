@@ -19,6 +19,7 @@ from navcore.messages import (
     RowObservation,
     ScannedPlant,
 )
+from navcore.messages.columns import made_of_columns
 from navcore.perception.corner_points import CornerPoints
 from navcore.perception.image_lines import image_line
 from navcore.perception.lean_watch import Reading
@@ -59,13 +60,12 @@ def scanned_plants(
 ) -> tuple[ScannedPlant, ...]:
     """Each with its side of the row, (M,) or none, and the object of the picture that it is: `found` (N,) tells."""
     on = sides if len(sides) else np.zeros(len(plants), dtype=np.int64)
-    objects = {int(plant): i for i, plant in enumerate(found) if plant >= 0}
-    columns = plants.number, plants.xy[:, 0], plants.xy[:, 1], plants.diameter, plants.sureness, on
-    rows = zip(*(column.tolist() for column in columns), strict=True)
-    return tuple(
-        ScannedPlant(number=n, x=x, y=y, diameter=d, sureness=p, side=side, object=objects.get(k))
-        for k, (n, x, y, d, p, side) in enumerate(rows)
-    )
+    objects: list[int | None] = [None] * len(plants)
+    for i, plant in enumerate(found.tolist()):
+        if plant >= 0:
+            objects[plant] = i
+    numbers = plants.number, plants.xy[:, 0], plants.xy[:, 1], plants.diameter, plants.sureness, on
+    return made_of_columns(ScannedPlant, *(column.tolist() for column in numbers), objects)
 
 
 def plants_of_row(plants: tuple[ScannedPlant, ...]) -> tuple[ScannedPlant, ...]:

@@ -7,7 +7,6 @@ estimated instead of spoiling the distances.
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,15 +14,11 @@ from numpy.typing import NDArray
 
 from navcore.geometry.pinhole import PinholeCamera
 from navcore.perception import corridor_kernels as kernels
+from navcore.perception import foot_kernels
 from navcore.perception.scan_evidence import ScanEvidence, nothing_scanned
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
-
-# A scanned plant counts among those that stand in a row if it is as sure as that.
-SURE = 0.5
-# Nearer ones tell nothing of the camera's pitch, m: their feet are hidden, or at the picture's edge.
-NEAREST_PAIR = 0.8
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -106,7 +101,8 @@ class CorridorFit:
         """
         p, scan = self._params, scan or nothing_scanned(len(feet))
         rays, used = self._rays(feet, scan, p.max_range, p.max_points)
-        scanned = nearest_plants(scan.plants, p.max_range, p.max_points), self._pairs(scan, rays)
+        pairs = foot_kernels.pairs(rays, scan.paired, scan.plants, self._mount)
+        scanned = nearest_plants(scan.plants, p.max_range, p.max_points), pairs
         start, _ = kernels.acquire(
             rays[used], scanned, mean, information, self._mount, self._noise, p.lines, p.tries, reach
         )  # fmt: skip
@@ -122,41 +118,19 @@ class CorridorFit:
         self, start: Floats, rays: Floats, used: Ints, scan: ScanEvidence, mean: Floats, information: Floats,
         widen: float,
     ) -> Corridor:  # fmt: skip
-        scanned = scan.plants, self._pairs(scan, rays)
-        z, after, found, plant_sides = kernels.refine(
-            start, rays[used], scanned, mean, information, self._mount, self._noise, 5, widen
+        z, after, sides, xy, plant_sides = kernels.told(
+            start, rays, used, scan.paired, scan.plants, mean, information, self._mount, self._noise, widen
         )  # fmt: skip
-        sides, xy = np.zeros(len(rays), dtype=np.int64), self._on_ground(rays, float(z[3]))
-        sides[used] = found
-        paired = scan.paired >= 0
-        sides[paired], xy[paired] = plant_sides[scan.paired[paired]], scan.plants[scan.paired[paired], :2]
-        sure = scan.plants[:, 3] >= SURE
+        told_x, told_sides = kernels.each_once(xy, sides, scan.paired, scan.plants, plant_sides)
         return Corridor(
             state=z, covariance=np.asarray(np.linalg.inv(after), dtype=np.float64), sides=sides, xy=xy,
-            plant_sides=plant_sides, told_x=np.concatenate((xy[~paired, 0], scan.plants[sure, 0])),
-            told_sides=np.concatenate((sides[~paired], plant_sides[sure])),
+            plant_sides=plant_sides, told_x=told_x, told_sides=told_sides,
         )  # fmt: skip
-
-    def _pairs(self, scan: ScanEvidence, rays: Floats) -> Floats:
-        """(P, 2) of the feet that are plants well ahead; see `plant_kernels`."""
-        feet = np.flatnonzero(scan.paired >= 0)
-        pairs = np.column_stack((rays[feet, 1], scan.plants[scan.paired[feet], 0] - self._camera.x))
-        return np.asarray(pairs[np.isfinite(pairs[:, 0]) & (pairs[:, 1] > NEAREST_PAIR)], dtype=np.float64)
 
     def _rays(self, feet: Floats, scan: ScanEvidence, furthest: float, most: int) -> tuple[Floats, Ints]:
         """Rays (N, 2) as (s, t), and the indices of the nearest in range that are no scanned plant's feet."""
         rays = foot_rays(self._camera, feet)
-        alone = np.isfinite(rays[:, 1]) & (scan.paired < 0)
-        in_range = np.flatnonzero(alone & (rays[:, 1] > self._camera.z / furthest))
-        nearest = np.argsort(-rays[in_range, 1], kind="stable")[:most]
-        return rays, in_range[nearest]
-
-    def _on_ground(self, rays: Floats, pitch: float) -> Floats:
-        c, s, camera = math.cos(pitch), math.sin(pitch), self._camera
-        ahead = c - rays[:, 1] * s
-        down = (s + rays[:, 1] * c) / ahead
-        reach = np.where(down > 1e-3, camera.z / np.maximum(down, 1e-3), np.nan)
-        return np.column_stack((camera.x + reach, camera.y + reach * rays[:, 0] / ahead))
+        return rays, foot_kernels.nearest_alone(rays, scan.paired, self._camera.z / furthest, most)
 
 
 def nearest_plants(plants: Floats, furthest: float, most: int) -> Floats:
@@ -168,6 +142,4 @@ def nearest_plants(plants: Floats, furthest: float, most: int) -> Floats:
 
 def foot_rays(camera: PinholeCamera, feet: Floats) -> Floats:
     """Rays (1, s, -t) in the driving frame, as (s, t), (N, 2), of pixels (N, 2); NaN for those not ahead."""
-    d = camera.rays(feet)
-    ahead = np.where(d[:, :1] > 1e-3, d[:, :1], np.nan)
-    return np.asarray(np.column_stack((d[:, 1], -d[:, 2])) / ahead, dtype=np.float64)
+    return np.asarray(foot_kernels.rays(feet, camera.compiled()), dtype=np.float64)

@@ -17,12 +17,15 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from navcore.perception.foot_kernels import on_ground, pairs
 from navcore.perception.line_consensus import GATE, Floats, Mount, Noise, best_lines
 from navcore.perception.plant_kernels import add_pairs, add_plants, best_plant_lines, plants_score
 
 Ints = NDArray[np.int64]
 # Plants (M, 4) and pairs (P, 2), see `plant_kernels`.
 Scanned = tuple[Floats, Floats]
+# A scanned plant counts among those that stand in a row if it is as sure as that.
+SURE = 0.5
 
 
 @njit(cache=True)
@@ -123,6 +126,33 @@ def refine(
         z[1] = min(1.2, max(-1.2, z[1]))
         z[3] = min(0.15, max(-0.15, z[3]))
     return z, hessian, sides, plant_sides
+
+
+@njit(cache=True)
+def told(
+    start: Floats, rays: Floats, used: Ints, paired: Ints, plants: Floats, mean: Floats, information: Floats,
+    mount: Mount, noise: Noise, widen: float,
+) -> tuple[Floats, Floats, Ints, Floats, Ints]:  # fmt: skip
+    """What all feet and plants tell, refined from `start`: state, its information, each foot's side and where it
+    stands, each plant's side. Of the `rays` only those `used` count as feet by themselves; see `foot_kernels`.
+    """
+    scanned = plants, pairs(rays, paired, plants, mount)
+    z, after, found, plant_sides = refine(start, rays[used], scanned, mean, information, mount, noise, 5, widen)
+    sides = np.zeros(len(rays), dtype=np.int64)
+    sides[used] = found
+    for i in range(len(rays)):
+        if paired[i] >= 0:
+            sides[i] = plant_sides[paired[i]]
+    return z, after, sides, on_ground(rays, paired, plants, z[3], mount), plant_sides
+
+
+@njit(cache=True)
+def each_once(xy: Floats, sides: Ints, paired: Ints, plants: Floats, plant_sides: Ints) -> tuple[Floats, Ints]:
+    """How far ahead, m, and on which side each plant is, (K,): feet (N,) that are no scanned plant's, then those
+    scanned ones (M,) that are sure.
+    """
+    alone, sure = paired < 0, plants[:, 3] >= SURE
+    return np.append(xy[alone, 0], plants[sure, 0]), np.append(sides[alone], plant_sides[sure])
 
 
 @njit(cache=True)

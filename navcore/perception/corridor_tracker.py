@@ -71,7 +71,7 @@ class CorridorTracker:
         expected_now = (track.state, _inverse(track.covariance)) if len(scan.plants) else self._with_passed(track)
         corridor = self._fit.follow(corners.feet, *expected_now, scan)
         seen = int(np.count_nonzero(corridor.told_sides))
-        near = int(np.count_nonzero(np.nan_to_num(np.abs(corridor.told_x), nan=np.inf) < NEAR_M))
+        near = int(np.count_nonzero(np.abs(corridor.told_x) < NEAR_M))
         track.doubts = track.doubts + 1 if near >= 4 and seen < self._params.lost_share * near else 0
         if seen:
             track.see(corridor.told_x[self._on_lines(corridor)])

@@ -5,10 +5,9 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-import numpy as np
-
 from navcore.geometry.line2 import Line2
 from navcore.geometry.pinhole import PinholeCamera
+from navcore.perception import drawing_kernels as kernels
 from navcore.perception.row_lines import away_from_camera
 
 
@@ -23,19 +22,9 @@ def driving_camera(camera: PinholeCamera) -> PinholeCamera:
 
 
 def image_line(camera: PinholeCamera, *, offset: float, heading: float, pitch: float = 0.0) -> Line2:
-    """Image of the ground line with that offset and heading in the driving frame, for a camera pitched so much more.
-
-    A line's image is the normal of the plane through it and the camera's centre: of its direction, and of the way
-    from the camera to one of its points. Nothing is divided, so lines beside or behind the camera are no exception.
-    """
-    c, s = math.cos(heading), math.sin(heading)
-    way = (-offset * s - camera.x, offset * c - camera.y, -camera.z)
-    normal = np.array((s * way[2], -c * way[2], c * way[1] - s * way[0]))
-    R = camera.R_base_camera() if pitch == 0.0 else replace(camera, pitch=camera.pitch + pitch).R_base_camera()
-    a, b, d = normal @ R
-    nx, ny = a / camera.fx, b / camera.fy
-    norm = math.hypot(nx, ny)
-    return away_from_camera(Line2(nx / norm, ny / norm, (nx * camera.cx + ny * camera.cy - d) / norm))
+    """Image of the ground line with that offset and heading in the driving frame, for a camera pitched by more."""
+    seen = camera.pitched(pitch) if pitch else camera
+    return away_from_camera(Line2(*kernels.image_line(offset, heading, seen.compiled())))
 
 
 def image_bisector(left: Line2, right: Line2) -> Line2 | None:
@@ -58,8 +47,8 @@ def published_reading(centre: Line2, camera: PinholeCamera, look_ahead: float) -
 
     Both positive to the left: m and rad. None for a level line.
     """
-    (_, v), *_ = camera.project(np.array([[camera.x + look_ahead, camera.y, 0.0]]))
-    u = centre.x_at(float(v))
+    _, v = kernels.pixel(camera.x + look_ahead, camera.y, 0.0, camera.compiled())
+    u = centre.x_at(v)
     if u is None:
         return None
     return float(-(u - camera.cx) * look_ahead / camera.fx), math.atan2(-centre.ny, centre.nx)

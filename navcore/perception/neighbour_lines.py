@@ -12,12 +12,10 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from navcore.perception.lean_fit import Lean
+from navcore.perception.neighbour_kernels import gap
 from navcore.perception.row_lines import GroundRow
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -54,24 +52,16 @@ def lean_of_neighbours(row: GroundRow, height: float, params: NeighbourLinesPara
 
     `height` of the camera, m.
     """
-    left, right = (_gap(row, side, params) for side in (1.0, -1.0))
-    if left is None or right is None:
+    p, line = params, (row.offset, row.heading, row.width)
+    within = p.nearest, p.furthest, p.least_gap * row.width, p.most_gap * row.width
+    left, right = (gap(row.beside, side, line, within, max(p.feet, 1)) for side in (1.0, -1.0))
+    if math.isnan(left) or math.isnan(right):
         return None
     between = (left + right) / 2
-    if abs(between - row.width) > params.even * row.width:
+    if abs(between - row.width) > p.even * row.width:
         return None
     roll = (right - left) * height / (2 * between * (row.width + between))
-    return roll if abs(roll) <= math.radians(params.most_deg) else None
-
-
-def _gap(row: GroundRow, side: float, params: NeighbourLinesParams) -> float | None:
-    """From the corridor's line to the next one on that side (+1 left, -1 right), m, as the camera sees it."""
-    x, y = row.beside[:, 0], row.beside[:, 1]
-    off = (y - math.tan(row.heading) * x) * math.cos(row.heading) - row.offset
-    beyond = side * off - row.width / 2
-    near = (x > params.nearest) & (x < params.furthest)
-    there = beyond[near & (beyond > params.least_gap * row.width) & (beyond < params.most_gap * row.width)]
-    return float(np.median(there)) if len(there) >= params.feet else None
+    return roll if abs(roll) <= math.radians(p.most_deg) else None
 
 
 class NeighbourLean:

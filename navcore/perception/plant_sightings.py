@@ -79,7 +79,7 @@ class PlantSightings:
         if self.driven < self._next:
             return
         self._next = self.driven + self._params.every
-        for left, x, y in row.feet():
+        for left, x, y in zip(*(numbers.tolist() for numbers in row.feet()), strict=True):
             self._see(row.heading, left, x, y, stretch)
         self._pictures += 1
 

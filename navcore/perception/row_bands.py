@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from navcore.geometry.pinhole import PinholeCamera
 from navcore.messages import ImageArea
+from navcore.perception.drawing_kernels import ahead, band
 from navcore.perception.geometric_filter import GeometricFilterParams
 from navcore.perception.row_lines import GroundRow
 
@@ -23,14 +23,12 @@ ROWS = 8
 
 def row_bands(camera: PinholeCamera, row: GroundRow) -> tuple[ImageArea, ImageArea]:
     """Where the lines of plants on the left and on the right lie with 95 %."""
-    seen = replace(camera, pitch=camera.pitch + row.pitch)
-    x = _ahead(seen)
-    C = row.covariance
-    wide = SIGMAS * np.sqrt(np.maximum(C[0, 0] + 2.0 * x * C[0, 1] + x**2 * C[1, 1], 0.0))
-    edges = [edge for y in (row.across(1.0, x), row.across(-1.0, x)) for edge in (y + wide, (y - wide)[::-1])]
-    there_and_back = np.tile(np.concatenate((x, x[::-1])), 2)
-    pixels = seen.project(np.column_stack((there_and_back, np.concatenate(edges), np.zeros(4 * len(x)))))
-    return _area(pixels[: 2 * len(x)]), _area(pixels[2 * len(x) :])
+    C, seen = row.covariance, camera.pitched(row.pitch)
+    compiled, variances = seen.compiled(), (C[0, 0], C[0, 1], C[1, 1])
+    x = ahead(compiled, _image_rows(seen))
+    lines = [(row.offset + side * row.width / 2, row.heading) for side in (1.0, -1.0)]
+    left, right = (band(compiled, x, line, variances, SIGMAS) for line in lines)
+    return _area(left), _area(right)
 
 
 def filter_region(params: GeometricFilterParams, *, width_px: int, height_px: int) -> ImageArea:
@@ -46,18 +44,15 @@ def filter_region(params: GeometricFilterParams, *, width_px: int, height_px: in
         (p.k3, p.k5),
         (p.k1, p.k5),
     )
-    return _area(np.array(shares) * (width_px, height_px))
+    return _area(np.round(np.array(shares) * (width_px, height_px), 1))
 
 
-def _ahead(camera: PinholeCamera) -> Floats:
-    """Distances ahead of the driving frame, m, (N,), of the image rows that show ground, near ones first."""
+def _image_rows(camera: PinholeCamera) -> Floats:
+    """From the image's lower edge to just below the horizon, (N,)."""
     horizon = camera.cy - camera.fy * math.tan(camera.pitch)
-    v = np.linspace(camera.height_px, max(horizon, 0.0) + 0.02 * camera.height_px, ROWS)
-    x = camera.ground(np.column_stack((np.full(ROWS, camera.cx), v)))[:, 0]
-    return np.asarray(x[np.isfinite(x)], dtype=np.float64)
+    return np.linspace(camera.height_px, max(horizon, 0.0) + 0.02 * camera.height_px, ROWS)
 
 
 def _area(pixels: Floats) -> ImageArea:
-    """To a tenth of a pixel: it travels with every picture."""
-    shown = np.round(pixels[np.isfinite(pixels).all(axis=1)], 1)
-    return ImageArea(points=tuple(zip(*shown.T.tolist(), strict=True)))
+    """With corners (N, 2), pixels, in order."""
+    return ImageArea(points=tuple(zip(*pixels.T.tolist(), strict=True)))

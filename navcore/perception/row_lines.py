@@ -87,19 +87,18 @@ class GroundRow:
     scanned: bool = False
     curvature: float = 0.0
 
-    def across(self, side: float, x: Floats) -> Floats:
+    def across(self, side: float | Floats, x: Floats) -> Floats:
         """y of the line on that side (+1 left, -1 right, 0 the centre line) at `x` ahead, driving frame, m."""
         aside = self.offset + side * self.width / 2
         return np.asarray((aside + x * math.sin(self.heading)) / math.cos(self.heading), dtype=np.float64)
 
-    def feet(self) -> list[tuple[bool, float, float]]:
-        """On the left line or the right one, x and y in the driving frame, m, of the objects that carry the lines."""
-        sides = ((True, 1.0, self.left_x), (False, -1.0, self.right_x))
-        return [
-            (left, x, y)
-            for left, side, xs in sides
-            for x, y in zip(xs.tolist(), self.across(side, xs).tolist(), strict=True)
-        ]
+    def feet(self) -> tuple[Mask, Floats, Floats]:
+        """(N,) which stand on the left line, x and y in the driving frame, m, of the objects that carry the lines."""
+        left, x = (
+            np.arange(len(self.left_x) + len(self.right_x)) < len(self.left_x),
+            np.concatenate((self.left_x, self.right_x)),
+        )
+        return left, x, self.across(np.where(left, 1.0, -1.0), x)
 
     def along(self, motion: SE2) -> float:
         """Metres along the row of the motion since the last picture (`T_last_now` of the driving frame)."""

@@ -4,12 +4,17 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from statistics import median
 from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
 
 from navcore.geometry.se2 import SE2
 from navcore.perception.plants_along import PlantsAlong
 from navcore.perception.row_lines import GroundRow
+
+Floats = NDArray[np.float64]
+Mask = NDArray[np.bool_]
 
 # Metres between two pictures that tell nothing of slip.
 STANDING = 0.005
@@ -40,13 +45,6 @@ class RowOdometryParams:
     slip_gain: float = 0.015
     most: float = 0.25
     weeds: float = 0.015
-
-
-class Foot(NamedTuple):
-    """On the left line or the right one, and so far along the row, m."""
-
-    left: bool
-    along: float
 
 
 class Driven(NamedTuple):
@@ -86,39 +84,25 @@ class RowOdometry:
         driven = self._driven or Driven(0.0, stamp_ns)
         told = row.along(motion) if motion else 0.0
         likely = (1.0 - self._share) * told
-        feet = [Foot(left, driven.metres + likely + x) for left, x in self._ahead(row)]
-        beyond = self._beyond(feet)
-        for foot in feet:
-            self._remember(Foot(foot.left, foot.along - self._params.gain * beyond))
+        p, (left, ahead) = self._params, self._ahead(row)
+        along = driven.metres + likely + ahead
+        beyond = self._plants.further(left, along, p.gate, p.known, p.least)
+        self._plants.remember(left, along - p.gain * beyond, p.gate, p.steady)
         self._learn(beyond, told)
-        self.step = likely - self._params.gain * beyond
+        self.step = likely - p.gain * beyond
         self._driven = Driven(driven.metres + self.step, driven.since_ns)
         return self._driven
 
-    def _ahead(self, row: GroundRow) -> list[tuple[bool, float]]:
-        """Side and distance along the row of the feet that are near, m."""
+    def _ahead(self, row: GroundRow) -> tuple[Mask, Floats]:
+        """Of the feet that are near: which stand on the left line, and distance along the row, m."""
         p, nearer = self._params, 1.0 if row.scanned else self._nearer
         c, s = nearer * math.cos(row.heading), nearer * math.sin(row.heading)
-        return [(left, x * c + y * s) for left, x, y in row.feet() if -p.behind < x < p.furthest]
-
-    def _beyond(self, feet: list[Foot]) -> float:
-        """By how much the marks seem to stand further along than they do, m: 0 where there are too few."""
-        found = [(foot.along, self._plants.nearest(*foot, self._params.gate)) for foot in feet]
-        known = [along - self._plants.along[i] for along, i in found if i is not None and self._known(i)]
-        return median(known) if len(known) >= self._params.least else 0.0
+        left, x, y = row.feet()
+        near = (x > -p.behind) & (x < p.furthest)
+        return left[near], x[near] * c + y[near] * s
 
     def _learn(self, beyond: float, told: float) -> None:
         """What the wheels tell too much goes on: the ground is wet for metres."""
         if abs(told) > STANDING:
             share = self._share + self._params.slip_gain * beyond / told
             self._share = min(max(share, -self._params.most), self._params.most)
-
-    def _known(self, i: int) -> bool:
-        return self._plants.sightings[i] >= self._params.known
-
-    def _remember(self, foot: Foot) -> None:
-        i = self._plants.nearest(*foot, self._params.gate)
-        if i is None:
-            self._plants.add(*foot)
-            return
-        self._plants.blend(i, foot.along, 1.0 / min(self._plants.sightings[i] + 1, self._params.steady))

@@ -14,7 +14,7 @@ from navcore.geometry.se2 import SE2
 from navcore.messages import CameraName, CameraView, DetectedObject, RowSource
 from navcore.perception.camera_view import camera_view, plants_of_row, row_observation, scanned_plants
 from navcore.perception.corner_points import CornerPoints, corner_points
-from navcore.perception.corridor_fit import SURE
+from navcore.perception.corridor_kernels import SURE
 from navcore.perception.corridor_track import CorridorTrackerParams
 from navcore.perception.corridor_tracker import CorridorTracker
 from navcore.perception.detector import Detector, Image, picture_fault

@@ -20,6 +20,7 @@ from navcore.messages import (
     RowObservation,
     RowSource,
 )
+from navcore.perception import drawing_kernels as drawing
 from navcore.perception.detector import Image
 from navcore.perception.image_lines import driving_camera
 from navcore.perception.levelling import leaning_offset, levelled
@@ -84,10 +85,9 @@ class RowEye:
         for scan in scans:
             self._scan_eye.take(scan, self._trail)
         found = self._scan_eye.plants(stamp_ns, self._trail)
-        if found is None:
-            return None
-        turned = SE2(0.0, 0.0, math.pi) if request.camera is CameraName.REAR else SE2()
-        return found.seen_from(turned)
+        if found is None or request.camera is CameraName.FRONT:
+            return found
+        return found.seen_from(_driving_frame(request.camera))
 
     def _checked(self, view: CameraView) -> CameraView:
         """With what its trunks say of the camera's mount."""
@@ -98,11 +98,12 @@ class RowEye:
         """With the ends of the newest scan's rays, for drawing: in the picture and from above."""
         if self._scan_eye is None:
             return view
-        mount, turned = self._cameras[camera], -1.0 if camera is CameraName.REAR else 1.0
-        ends = self._scan_eye.ends(view.stamp_ns, self._trail) * (turned, turned, 1.0)
-        pixels = mount.project(ends)
-        inside = np.all((pixels >= 0.0) & (pixels < (mount.width_px, mount.height_px)), axis=1)
-        return replace(view, scan=_pairs(pixels[inside], 1), ends=_pairs(ends[:, :2], 2))
+        mount, (ends, pose) = self._cameras[camera], self._scan_eye.ends(view.stamp_ns, self._trail)
+        seen = _driving_frame(camera) @ pose
+        pixels, above = drawing.scan(
+            ends, (seen.x, seen.y, seen.yaw), mount.compiled(), mount.width_px, mount.height_px
+        )  # fmt: skip
+        return replace(view, scan=_pairs(pixels), ends=_pairs(above))
 
     def _tell(self, view: CameraView, plants: ScannedPlants | None, camera: PinholeCamera) -> None:
         """What the picture makes of the plants, if there is one."""
@@ -145,9 +146,14 @@ def _is_another_row(seen: RowObservation, prior: RowPrior | None) -> bool:
     return abs(seen.offset - prior.offset) > WRONG_ROW * (prior.width or USUAL_WIDTH)
 
 
-def _pairs(points: NDArray[np.float64], digits: int) -> tuple[tuple[float, float], ...]:
-    """Points (N, 2), rounded, for a message."""
-    return tuple(zip(*np.round(points, digits).T.tolist(), strict=True))
+def _pairs(points: NDArray[np.float64]) -> tuple[tuple[float, float], ...]:
+    """Points (N, 2) for a message."""
+    return tuple(zip(*points.T.tolist(), strict=True))
+
+
+def _driving_frame(camera: CameraName) -> SE2:
+    """`base_link` as seen from it."""
+    return SE2(0.0, 0.0, math.pi) if camera is CameraName.REAR else SE2()
 
 
 def _odom(request: CameraRequest) -> SE2:

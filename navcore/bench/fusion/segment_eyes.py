@@ -6,7 +6,6 @@ import math
 import time
 
 import numpy as np
-from numpy.typing import NDArray
 
 from navcore.bench.fusion.segment_cases import Chain, SegmentCase
 from navcore.bench.mission.cases import EyeKind
@@ -157,10 +156,6 @@ class TruePlants(ScanEye):
             number=near, xy=xy[near], std=np.full(n, 0.001), diameter=2.0 * self._sections[near, 2],
             hits=np.full(n, 100), sureness=np.ones(n), height=self.mount.z,
         )  # fmt: skip
-
-    def ends(self, stamp_ns: int, trail: OdometryTrail) -> NDArray[np.float64]:
-        """See `ScanEye`: there are no rays."""
-        return np.empty((0, 3))
 
 
 class ChainEye:

@@ -18,7 +18,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from navcore.perception.plants.bending_kernels import averaged
+from navcore.perception.plants.bending_kernels import about, averaged, basis, bends
 
 Floats = NDArray[np.float64]
 
@@ -82,38 +82,29 @@ class BendingRow:
         self._variances = np.array(p.scatters)[:, None] ** 2
         beyond = p.next_std, p.next_turn_std
         self._prior = np.array((p.offset_std, p.heading_std, p.width_std, *beyond, *beyond, p.shift)) ** -2.0
-        bends = len(self._shifts) + 1
-        self._chances = np.log(np.concatenate(((p.straight,), np.full(bends, (1.0 - p.straight) / bends))))
+        self._curve = p.curve / p.shift  # one as likely as a shift of 1 m
+        count = len(self._shifts) + 1
+        self._chances = np.log(np.concatenate(((p.straight,), np.full(count, (1.0 - p.straight) / count))))
         # Asked for: the middle behind, here and ahead, and the width.
         x, is_middle = np.array((-p.span, 0.0, p.span, 0.0)), np.array((1.0, 1.0, 1.0, 0.0))
         self._asked = np.zeros((4, 7))
         self._asked[:, :3] = np.column_stack((is_middle, x, 1.0 - is_middle))
-        self._asked_bends = self._bends(x) * is_middle
+        self._asked_bends = bends(x, self._shifts, self._curve) * is_middle
 
     def fit(self, offset: float, heading: float, width: float, plants: Floats) -> Middle | None:
         """Near the corridor of `offset`, `heading` and `width`, by plants (M, 4) as in `ScanEvidence`, in the same
         frame. None where too few stand on either line.
         """
-        c, s = math.cos(heading), math.sin(heading)
-        along, left = (plants[:, :2] @ np.array(((c, -s), (s, c)))).T
-        side = _line((left - offset) / width)
-        off = left - offset - side * width / 2.0
-        counts = (np.abs(side) == 1.0) | (plants[:, 3] >= self._params.next_sure)
-        on = counts & (np.abs(off) <= self._params.beside)
-        if min(np.count_nonzero(on & (side == 1.0)), np.count_nonzero(on & (side == -1.0))) < self._params.fewest:
+        p = self._params
+        x, side, off, told = about((offset, heading, width), plants, p.next_sure, p.beside)
+        if min(np.count_nonzero(side == 1.0), np.count_nonzero(side == -1.0)) < p.fewest:
             return None
-        sure = np.maximum(plants[on, 3], 0.1)
+        weights = np.maximum(told[:, 1], 0.1) / (self._variances + told[:, 0])
         mean, covariance = averaged(
-            _basis(along[on], side[on]), off[on], sure / (self._variances + plants[on, 2] ** 2),
-            self._bends(along[on]), self._asked, self._asked_bends, self._prior, self._chances,
+            basis(x, side), off, weights, bends(x, self._shifts, self._curve), self._asked, self._asked_bends,
+            self._prior, self._chances,
         )  # fmt: skip
         return self._middle(offset, heading, width, mean, covariance)
-
-    def _bends(self, x: Floats) -> Floats:
-        """(K, N) at places (N,) along the row: the shifts by 1 m, and the curve, as likely as a shift of 1 m."""
-        p = self._params
-        shifts = np.clip((x - self._shifts[:, :1]) / self._shifts[:, 1:], -0.5, 0.5)
-        return np.vstack((shifts, 0.5 * p.curve / p.shift * x * x))
 
     def _middle(self, offset: float, heading: float, width: float, mean: Floats, covariance: Floats) -> Middle:
         behind, here, ahead, wider = mean.tolist()
@@ -124,16 +115,3 @@ class BendingRow:
             (offset + here) * math.cos(turn), heading + turn, width + wider, to_line @ covariance @ to_line.T,
             (ahead - 2.0 * here + behind) / span**2 * math.cos(turn) ** 3,
         )  # fmt: skip
-
-
-def _line(widths: Floats) -> Floats:
-    """Which line is nearest to places so many widths left of the middle: +1 and -1 of the row, +3 and -3 the next."""
-    return np.asarray(np.copysign(np.where(np.abs(widths) < 1.0, 1.0, 3.0), widths))
-
-
-def _basis(x: Floats, side: Floats) -> Floats:
-    """(N, 7) by what the middle's offset, turn and width, and offset and turn of the next line on the left and on the
-    right, put a plant aside.
-    """
-    left, right = np.where(side > 1.0, 1.0, 0.0), np.where(side < -1.0, 1.0, 0.0)
-    return np.ascontiguousarray(np.column_stack((np.ones(len(x)), x, side / 2.0, left, left * x, right, right * x)))

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from statistics import median
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +17,7 @@ from numpy.typing import NDArray
 from navcore.geometry.pinhole import PinholeCamera
 from navcore.messages import DetectedObject
 from navcore.perception.corridor_fit import foot_rays
+from navcore.perception.plants.association_kernels import in_sight, lead
 from navcore.perception.plants.scanned_plants import ScannedPlants
 
 Floats = NDArray[np.float64]
@@ -93,7 +95,8 @@ def _told_pitch(
     if len(paired) < p.fewest:
         return None
     ahead = plants.xy[found[paired], 0] - camera.x
-    return float(np.median(np.arctan(camera.z / ahead) - down[paired]))
+    told: list[float] = (np.arctan(camera.z / ahead) - down[paired]).tolist()
+    return median(told)
 
 
 def _assigned(costs: Floats, xy: Floats, params: BoxAssociationParams) -> Ints:
@@ -104,17 +107,9 @@ def _assigned(costs: Floats, xy: Floats, params: BoxAssociationParams) -> Ints:
     found = np.full(len(costs), -1, dtype=np.int64)
     alone = np.full((len(costs), len(costs)), params.alone)
     rows, columns = linear_sum_assignment(np.hstack((costs, alone)))
-    taken = (columns < costs.shape[1]) & (_lead(costs, xy, params.together)[rows] >= params.clear)
+    taken = (columns < costs.shape[1]) & (lead(costs, xy, params.together)[rows] >= params.clear)
     found[rows[taken]] = columns[taken]
     return found
-
-
-def _lead(costs: Floats, xy: Floats, together: float) -> Floats:
-    """(N,) by how much the plant that fits an object best does so better than any that stands elsewhere."""
-    best = np.argmin(costs, axis=1)
-    x, y = xy.T
-    elsewhere = np.hypot(x[best][:, None] - x[None], y[best][:, None] - y[None]) > together
-    return np.asarray(np.min(np.where(elsewhere, costs, np.inf), axis=1) - np.min(costs, axis=1))
 
 
 def _by_middle(
@@ -156,7 +151,7 @@ def _by_foot(
     scale = camera.width_px / 640 / camera.fx
     std = np.sqrt((p.foot_px * scale) ** 2 + math.radians(pitch_deg) ** 2 + (p.range_share * told) ** 2)
     off = (np.tan(down + pitch)[:, None] - told[None]) / std[None]
-    return np.nan_to_num(0.5 * off**2, nan=0.0)
+    return np.where(np.isnan(off), 0.0, 0.5 * off**2)
 
 
 def corners_of(objects: tuple[DetectedObject, ...]) -> Floats:
@@ -168,21 +163,11 @@ def slopes(boxes: Floats, camera: PinholeCamera, pitch: float) -> Floats:
     """(N,) how far aside per metre ahead, + left, boxes' middles are of a camera that looks so much further down."""
     if not len(boxes):
         return np.empty(0)
-    middles = np.column_stack(((boxes[:, 0] + boxes[:, 2]) / 2, (boxes[:, 1] + boxes[:, 3]) / 2))
-    rays = foot_rays(camera, middles)
+    rays = foot_rays(camera, (boxes[:, :2] + boxes[:, 2:]) / 2)
     return np.asarray(rays[:, 0] / (math.cos(pitch) - rays[:, 1] * math.sin(pitch)), dtype=np.float64)
 
 
 def should_be_seen(plants: ScannedPlants, camera: PinholeCamera, reach: float = 6.0) -> NDArray[np.bool_]:
     """(M,) which plants stand well inside the picture, with nothing nearer in line, no further than `reach` m."""
-    x, y = (plants.xy - (camera.x, camera.y)).T
-    seen = np.zeros(len(x), dtype=np.bool_)
-    near = np.flatnonzero((x > 0.3) & (np.hypot(x, y) < reach))  # nothing further away hides them
-    x, y = x[near], y[near]
-    u = camera.cx - camera.fx * y / x
-    margin = 0.04 * camera.width_px
-    inside = (x > 1.0) & (u > margin) & (u < camera.width_px - margin)
-    half = 0.5 * camera.fx * plants.diameter[near] / x + 4.0
-    overlaps = np.abs(u[:, None] - u[None]) < half[:, None] + half[None]
-    seen[near] = inside & ~np.any(overlaps & (x[None] < x[:, None] - 0.1), axis=1)
-    return seen
+    x, y = plants.xy[:, 0] - camera.x, plants.xy[:, 1] - camera.y
+    return np.asarray(in_sight(x, y, plants.diameter, (camera.fx, camera.cx), camera.width_px, reach))

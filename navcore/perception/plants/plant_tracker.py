@@ -7,7 +7,6 @@ the camera tells in time.
 
 from __future__ import annotations
 
-from collections.abc import Set
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,11 +14,11 @@ from numpy.typing import NDArray
 
 from navcore.geometry.lidar_mount import LidarMount
 from navcore.geometry.se2 import SE2
-from navcore.perception.plants.alignment_kernels import mutual_nearest
 from navcore.perception.plants.passing_rays import share_past
 from navcore.perception.plants.plant_evidence import PlantEvidence, PlantEvidenceParams
 from navcore.perception.plants.scan_alignment import ScanAlignmentParams, align
 from navcore.perception.plants.scanned_plants import ScannedPlants, no_plants
+from navcore.perception.plants.tracker_kernels import among, in_base, kept, meet
 from navcore.perception.scan.scan_clusters import ScanTrunks
 
 Floats = NDArray[np.float64]
@@ -59,6 +58,7 @@ class PlantTracker:
 
     def __init__(self, mount: LidarMount, params: PlantTrackerParams = PlantTrackerParams()) -> None:
         self._mount, self._params = mount, params
+        self._axes = np.ascontiguousarray(mount.R_base_lidar()[:2, :2])
         self.forget()
 
     def forget(self) -> None:
@@ -100,47 +100,24 @@ class PlantTracker:
             sureness=self._evidence.sureness()[seen], height=now.height,
         )  # fmt: skip
 
-    def told_by_camera(self, boxed: Set[int], blank: Set[int]) -> None:
-        """Numbers of the plants that a picture shows as trunks or posts, and of those that it should and does not."""
-        numbers = self._plants.number.tolist()
-        shown, missed = (np.array([n in told for n in numbers], dtype=np.bool_) for told in (boxed, blank))
-        self._evidence.see(shown, missed)
+    def told_by_camera(self, boxed: Ints, expected: Ints) -> None:
+        """Numbers of the plants that a picture shows as trunks or posts, and of those that it should show."""
+        shown, missed = (among(self._plants.number, numbers) for numbers in (boxed, expected))
+        self._evidence.see(shown, missed & ~shown)
 
     def _in_base(self, trunks: ScanTrunks, turn: SE2) -> Floats:
-        """Centres (K, 2) in `base_link` at the scan's stamp: what was met earlier was met from further back."""
-        early = 1.0 - trunks.moment
-        xy = self._mount.ends(trunks.bearing, trunks.range)[:, :2]
-        yaw = -early * turn.yaw
-        c, s = np.cos(yaw), np.sin(yaw)
-        x, y = xy[:, 0] - early * turn.x, xy[:, 1] - early * turn.y
-        return np.column_stack((c * x - s * y, s * x + c * y))
+        """Centres (K, 2) in `base_link` at the scan's stamp."""
+        place, driven = (self._mount.x, self._mount.y), (turn.x, turn.y, turn.yaw)
+        return np.asarray(in_base(trunks.bearing, trunks.range, trunks.moment, self._axes, place, driven))
 
     def _take_in(self, xy: Floats, std: Floats, trunks: ScanTrunks) -> None:
-        mine, theirs = mutual_nearest(xy, self._plants.xy, self._params.gate)
-        self._since_hit += 1
-        self._since_hit[theirs] = 0
-        self._blend(xy[mine], std[mine], theirs)
-        self._thicken(trunks, mine, theirs)
-        new = np.ones(len(xy), dtype=np.bool_)
-        new[mine] = False
-        self._add(xy[new], std[new], trunks.diameter[new], _weight(trunks)[new])
+        p, plants, weight = self._params, self._plants, _weight(trunks)
+        known = plants.xy, plants.std, plants.diameter, self._measured, plants.hits, self._since_hit
+        mine, theirs, new = meet((xy, std, trunks.diameter, weight), known, p.gate, p.steady, p.least_std)
         self._evidence.met(theirs, trunks.diameter[mine], trunks.roughness[mine], trunks.cut[mine])
-        self._evidence.add(trunks.diameter[new], trunks.roughness[new], trunks.cut[new])
-
-    def _blend(self, xy: Floats, std: Floats, i: Ints) -> None:
-        """A Kalman step for each plant `i`."""
-        p, plants = self._params, self._plants
-        variance = plants.std[i] ** 2 + p.steady**2
-        gain = variance / (variance + std**2)
-        plants.xy[i] += gain[:, None] * (xy - plants.xy[i])
-        plants.std[i] = np.maximum(np.sqrt((1.0 - gain) * variance), p.least_std)
-        plants.hits[i] += 1
-
-    def _thicken(self, trunks: ScanTrunks, mine: Ints, i: Ints) -> None:
-        """The mean diameter of each plant `i`, near looks counting more: their rays stand closer."""
-        weight = _weight(trunks)[mine]
-        self._measured[i] += weight
-        self._plants.diameter[i] += weight / self._measured[i] * (trunks.diameter[mine] - self._plants.diameter[i])
+        if len(new):
+            self._add(xy[new], std[new], trunks.diameter[new], weight[new])
+            self._evidence.add(trunks.diameter[new], trunks.roughness[new], trunks.cut[new])
 
     def _add(self, xy: Floats, std: Floats, diameter: Floats, weight: Floats) -> None:
         n, old = len(xy), self._plants
@@ -156,15 +133,13 @@ class PlantTracker:
 
     def _clear(self) -> None:
         """Forget what is far behind, and what was met once and not again."""
-        p, plants = self._params, self._plants
-        apart = np.hypot(plants.xy[:, 0] - self._pose.x, plants.xy[:, 1] - self._pose.y)
-        fleeting = (plants.hits < p.anchors) & (self._since_hit > p.young)
-        kept = (apart <= p.behind) & ~fleeting
-        if kept.all():
+        p, plants, here = self._params, self._plants, (self._pose.x, self._pose.y)
+        known = kept(plants.xy, plants.hits, self._since_hit, here, p.behind, p.anchors, p.young)
+        if known.all():
             return
-        self._plants, self._since_hit = plants.only(kept), self._since_hit[kept]
-        self._measured = self._measured[kept]
-        self._evidence.keep(kept)
+        self._plants, self._since_hit = plants.only(known), self._since_hit[known]
+        self._measured = self._measured[known]
+        self._evidence.keep(known)
 
 
 def _weight(trunks: ScanTrunks) -> Floats:

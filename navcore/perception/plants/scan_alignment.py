@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -46,10 +47,15 @@ def align(
     """
     if not len(seen) or not len(known):
         return predicted
-    gates = np.linspace(p.gate, p.near_gate, p.rounds)
+    gates = _gates(p.gate, p.near_gate, p.rounds)
     start, information = np.array((predicted.x, predicted.y, predicted.yaw)), _odometry_information(moved, p)
     x, y, yaw = laid_over(start, information, seen, seen_std, known, known_std, gates, p.noise)
     return SE2(float(x), float(y), float(yaw))
+
+
+@lru_cache(maxsize=8)  # asked for with each scan
+def _gates(first: float, last: float, rounds: int) -> Floats:
+    return np.linspace(first, last, rounds)
 
 
 def _odometry_information(moved: SE2, p: ScanAlignmentParams) -> Floats:

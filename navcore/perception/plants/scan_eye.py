@@ -54,7 +54,8 @@ class ScanEye:
         if now is None or began is None:
             self.forget()
             return
-        angles, distances = np.asarray(scan.angles), np.asarray(scan.distances)
+        # With the type told, numpy need not look at each number twice.
+        angles, distances = (np.array(numbers, dtype=np.float64) for numbers in (scan.angles, scan.distances))
         back = distances > 0.0
         self.problem = "" if back.any() else "the LiDAR sees nothing at all: is it covered?"
         motion, turn = self._last[1].inverse() @ now if self._last else SE2(), began.inverse() @ now
@@ -74,14 +75,16 @@ class ScanEye:
             self.problem = f"the LiDAR has been silent for {silent_s:.1f} s"
         return None if self.problem else self._tracker.plants(self._last[1].inverse() @ at)
 
-    def ends(self, stamp_ns: int, trail: OdometryTrail) -> Floats:
-        """Where the newest scan's rays end, (N, 3) in `base_link` at that moment, m; for drawing."""
+    def ends(self, stamp_ns: int, trail: OdometryTrail) -> tuple[Floats, SE2]:
+        """Where the newest scan's rays ended, (N, 3) in `base_link`, m, and where that lay, seen from `base_link` at
+        the given moment; for drawing.
+        """
         at = trail.at(stamp_ns)
         if self._last is None or at is None:
-            return np.empty((0, 3))
-        return np.column_stack(((at.inverse() @ self._last[1]).apply(self._ends[:, :2]), self._ends[:, 2]))
+            return np.empty((0, 3)), SE2()
+        return self._ends, at.inverse() @ self._last[1]
 
     def told(self, view: CameraView, expected: NDArray[np.int64]) -> None:
         """What a picture makes of the plants: which it shows, and which it does not of those `expected` (numbers)."""
-        boxed = {p.number for p in view.plants if p.object is not None}
-        self._tracker.told_by_camera(boxed, set(expected.tolist()) - boxed)
+        boxed = np.array([p.number for p in view.plants if p.object is not None], dtype=np.int64)
+        self._tracker.told_by_camera(boxed, expected)

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from navcore.perception.scan.cluster_kernels import things
+from navcore.perception.scan.cluster_kernels import ThingRules, TrunkRules, trunks
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -82,44 +82,18 @@ class ScanClusters:
     """Finds trunks and posts in scans."""
 
     def __init__(self, params: ScanClusterParams = ScanClusterParams()) -> None:
-        self._params = params
+        p = params
+        self._of_things = ThingRules(p.near, p.far, p.jump, math.radians(p.slope_deg), p.bridge, p.hidden)
+        self._of_trunks = TrunkRules(
+            p.thinnest, p.thickest, p.fewest, p.rough, p.ray_std, p.ray_std_share, p.cut_std
+        )  # fmt: skip
 
     def find(self, angles: Floats, distances: Floats) -> ScanTrunks:
         """Of one turn: bearings (N,) rad and ranges (N,) m, 0 where nothing came back, as in `LidarScan`."""
-        p, step = self._params, ray_step(angles)
-        slope, beside = math.radians(p.slope_deg), p.bridge + 1
-        found = things(angles, distances, p.near, p.far, step, p.jump, slope, p.bridge, p.hidden, beside)
-        return self._trunks(found[self._may_be_trunk(found, step)], len(angles), step)
-
-    def _may_be_trunk(self, found: Floats, step: float) -> NDArray[np.bool_]:
-        """Thick enough or cut, not too thick, of enough rays, round enough."""
-        p, (rho, radius, rays, rms) = self._params, found[:, 1:5].T
-        fewest = np.maximum(1.0, np.floor(p.fewest * expected_rays(p.thinnest, rho, step)))
-        slack = step * rho  # the silhouette is told to a ray on either side
-        fits = (2.0 * radius >= p.thinnest - slack) & (2.0 * radius <= p.thickest + slack)
-        return np.asarray(fits & (rays >= fewest) & (rms <= p.rough * self._ray_std(rho)))
-
-    def _trunks(self, found: Floats, n: int, step: float) -> ScanTrunks:
-        p, (bearing, rho, radius, rays, rms) = self._params, found[:, :5].T
-        first, last, cut = found[:, 5], found[:, 6], found[:, 7] > 0
-        ray_std, edge = self._ray_std(rho), 0.41 * step * rho  # two edges, each known to a step: sqrt(2 / 12)
-        loose = np.where(cut, p.cut_std, 0.0)
+        bearing, rho, range_std, bearing_std, diameter, diameter_std, cut, rays, moment, roughness = trunks(
+            angles, distances, self._of_things, self._of_trunks
+        )
         return ScanTrunks(
-            bearing=bearing, range=rho, range_std=np.sqrt(ray_std**2 / rays + (0.5 * edge) ** 2 + loose**2),
-            bearing_std=np.hypot(0.5 * edge, loose) / rho, diameter=2.0 * radius, diameter_std=np.hypot(edge, loose),
-            cut=cut, rays=rays.astype(np.int64), moment=0.5 * (first + last) / max(n - 1, 1), roughness=rms / ray_std,
+            bearing=bearing, range=rho, range_std=range_std, bearing_std=bearing_std, diameter=diameter,
+            diameter_std=diameter_std, cut=cut > 0.0, rays=rays.astype(np.int64), moment=moment, roughness=roughness,
         )  # fmt: skip
-
-    def _ray_std(self, rho: Floats) -> Floats:
-        p = self._params
-        return np.asarray(np.hypot(p.ray_std, p.ray_std_share * rho))
-
-
-def ray_step(angles: Floats) -> float:
-    """Angle between two rays, rad: the median, for a turn may have gaps. 0.225 deg for fewer than two."""
-    return float(np.median(np.abs(np.diff(angles)))) if len(angles) > 1 else math.radians(0.225)
-
-
-def expected_rays(diameter: float | Floats, ranges: Floats, step: float) -> Floats:
-    """Rays that a trunk returns from a range: N = 360 D / (2 pi r 0.225) (paper B), `step` rad for its 0.225 deg."""
-    return np.asarray(diameter / (ranges * step))

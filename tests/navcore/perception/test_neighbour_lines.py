@@ -11,6 +11,7 @@ from navcore.geometry.pinhole import PinholeCamera, robot_camera
 from navcore.geometry.se2 import SE2
 from navcore.messages import CameraName
 from navcore.perception.detector import Told
+from navcore.perception.neighbour_kernels import gap
 from navcore.perception.neighbour_lines import NeighbourLinesParams, lean_of_neighbours
 from navcore.perception.row_lines import GroundRow, RowPrior
 from navcore.perception.row_perception import RowPerception, RowPerceptionParams
@@ -87,3 +88,18 @@ def test_a_road_or_another_block_beside_the_row_is_no_lean(away: float) -> None:
 def test_a_single_foot_is_no_line() -> None:
     beside = [(5.0, 4.5), (5.0, -4.5), (7.0, -4.5)]
     assert lean_of_neighbours(row(beside), 0.8, NeighbourLinesParams()) is None
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_the_next_line_is_as_far_as_the_feet_beyond_the_corridors_own_in_the_middle(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    offset, heading, width, side = rng.uniform(-0.5, 0.5), rng.uniform(-0.2, 0.2), 3.0, float(rng.choice((1, -1)))
+    feet = rng.uniform((-2.0, -9.0), (16.0, 9.0), (60, 2))
+    feet[::7] = math.nan  # not on the ground
+    across = (feet[:, 1] - math.tan(heading) * feet[:, 0]) * math.cos(heading)
+    beyond = side * (across - offset) - width / 2
+    there = beyond[(feet[:, 0] > 3.5) & (feet[:, 0] < 14.5) & (beyond > 1.35) & (beyond < 4.8)]
+    within = (3.5, 14.5, 1.35, 4.8)
+    line = (offset, heading, width)
+    assert gap(feet, side, line, within, len(there)) == pytest.approx(float(np.median(there)), abs=1e-12)
+    assert math.isnan(gap(feet, side, line, within, len(there) + 1))

@@ -114,7 +114,7 @@ def test_what_the_camera_calls_a_trunk_becomes_sure_and_what_it_does_not_does_no
     scans(tracker, 4)
     first, second = tracker.plants().number[:2]
     for _ in range(6):
-        tracker.told_by_camera({int(first)}, {int(second)})
+        tracker.told_by_camera(np.array([first]), np.array([second]))
     plants = tracker.plants()
     assert plants.sureness[plants.number == first][0] > 0.9
     assert plants.sureness[plants.number == second][0] < 0.4

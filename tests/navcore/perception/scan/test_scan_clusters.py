@@ -7,7 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from navcore.perception.scan.scan_clusters import ScanClusters, expected_rays
+from navcore.perception.scan.cluster_kernels import expected_rays
+from navcore.perception.scan.scan_clusters import ScanClusters
 from tests.navcore.perception.scan.round_trunks import scan_of
 
 
