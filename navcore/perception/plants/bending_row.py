@@ -38,6 +38,8 @@ class BendingRowParams:
         next_std, next_turn_std: 1-sigma of where the next line on either side stands about one width further out, m,
             and of how far it turns from the row, rad. next_sure: only plants as sure as that stand on them, 0 to 1:
             those that the camera has seen as well.
+        doubt: by so much smaller than told is the logarithm of the odds that an upright is a plant, >= 0: of those that
+            no picture has shown as one, most that stand on a line of young trees are weeds.
         span: the told direction and curvature are those of the circle through the middle here and so far behind and
             ahead, > 0.
         fewest: plants on each side; with fewer there is nothing to add to the corridor.
@@ -56,6 +58,7 @@ class BendingRowParams:
     next_std: float = 0.3
     next_turn_std: float = 0.01
     next_sure: float = 0.9
+    doubt: float = 4.0
     span: float = 1.0
     fewest: int = 2
 
@@ -99,7 +102,8 @@ class BendingRow:
         x, side, off, told = about((offset, heading, width), plants, p.next_sure, p.beside)
         if min(np.count_nonzero(side == 1.0), np.count_nonzero(side == -1.0)) < p.fewest:
             return None
-        weights = np.maximum(told[:, 1], 0.1) / (self._variances + told[:, 0])
+        sure = told[:, 1] / (told[:, 1] + (1.0 - told[:, 1]) * math.exp(p.doubt))
+        weights = np.maximum(sure, 0.01) / (self._variances + told[:, 0])
         mean, covariance = averaged(
             basis(x, side), off, weights, bends(x, self._shifts, self._curve), self._asked, self._asked_bends,
             self._prior, self._chances,

@@ -120,6 +120,20 @@ def _seen_from(seen: Floats, along: float) -> Floats:
     return seen - (along, 0.0, 0.0, 0.0)
 
 
+def test_uprights_that_no_picture_has_shown_hardly_move_a_middle_that_sure_plants_tell() -> None:
+    """Half of them stand 20 cm to the left, where weeds grow."""
+    row = plants(0.0 * AHEAD, 0.05)
+    weeds = plants(0.2 + 0.0 * AHEAD, 0.05, seed=2)
+    weeds[:, 0], weeds[:, 3] = weeds[:, 0] + 0.7, 0.6
+    assert abs(fitted(np.vstack((row, weeds))).offset - fitted(row).offset) < 0.02  # m; as sure as told it is 0.08
+
+
+def test_where_no_picture_has_shown_any_the_uprights_tell_the_middle_all_the_same() -> None:
+    unsure = plants(0.1 + 0.0 * AHEAD, 0.05)
+    unsure[:, 3] = 0.6
+    assert fitted(unsure).offset == pytest.approx(0.1, abs=0.05)  # m
+
+
 def test_with_one_plant_on_a_side_there_is_nothing_to_add() -> None:
     seen = plants(0.0 * AHEAD)
     assert BendingRow().fit(0.0, 0.0, WIDTH, seen[: len(AHEAD) + 1]) is None
