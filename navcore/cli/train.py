@@ -9,6 +9,7 @@ import typer
 
 if TYPE_CHECKING:
     from navcore.training.augment import AugmentParams
+    from navcore.training.start import Start
 
 
 def register(app: typer.Typer) -> None:
@@ -21,8 +22,18 @@ def train(
     validation: Annotated[Path, typer.Argument(help="Folder of pictures that are not trained on.")],
     out: Annotated[Path, typer.Option(help="Folder for last.pt, best.pt and detector.onnx.")] = Path("training"),
     net: Annotated[
-        str, typer.Option(help="small or large (ours), or as published: yolov8n, rescbam, eca, gam, sa.")
-    ] = "small",
+        str | None,
+        typer.Option(
+            help="small or large (ours), or as published: yolov8n, rescbam, eca, gam, sa; else that of --from."
+        ),
+    ] = None,
+    begin: Annotated[
+        Path | None,
+        typer.Option("--from", metavar="WEIGHTS", help="Begin with a best.pt or a feet.onnx instead of at random."),
+    ] = None,
+    rate: Annotated[
+        float | None, typer.Option(min=1e-7, help="Highest learning rate; without: the network's own.")
+    ] = None,
     epochs: Annotated[int, typer.Option(min=1, help="Passes over the training pictures.")] = 24,
     minutes: Annotated[float | None, typer.Option(min=0.05, help="No longer than so.")] = None,
     batch: Annotated[int, typer.Option(min=2, help="Pictures per step.")] = 12,
@@ -46,11 +57,15 @@ def train(
     from navcore.training.trainer import Trainer, TrainerParams
 
     try:
+        start = _start(begin, net)
         params = TrainerParams(
             epochs=epochs, minutes=minutes, batch=batch, seed=seed, device=device, threads=threads,
-            validate_every=validate_every, architecture=named_architecture(net), augment=_cropped(crop),
+            learning_rate=rate, validate_every=validate_every, augment=_cropped(crop),
+            architecture=start.architecture if start else named_architecture(net or "small"),
         )  # fmt: skip
         trainer = Trainer(out, read_samples(data, TRAINED), read_samples(validation), params)
+        if start:
+            trainer.begin(start)
         if resume:
             trainer.resume()
         best = trainer.run(typer.echo)
@@ -58,6 +73,13 @@ def train(
     except RowpilotError as error:
         typer.echo(str(error), err=True)
         raise typer.Exit(1) from error
+
+
+def _start(weights: Path | None, net: str | None) -> Start | None:
+    from navcore.training.architecture_choice import named_architecture
+    from navcore.training.start import start_from
+
+    return start_from(weights, named_architecture(net) if net else None) if weights else None
 
 
 def _cropped(size: tuple[int, int]) -> AugmentParams:

@@ -18,12 +18,16 @@ class LossParams:
     Attributes:
         foot, size: of the foot's place and of the logarithms of width and height, beside the focal loss.
         overlap: of one less the intersection over union with the true box.
+        narrow: boxes below that width count as many times as they are narrower, at most `most`, cells: a pixel more
+            or less costs them their overlap.
         alpha, beta: exponents of the focal loss (Law and Deng 2018, Equation 1: 2 and 4).
     """
 
     foot: float = 1.0
     size: float = 0.5
     overlap: float = 2.0
+    narrow: float = 2.0
+    most: float = 3.0
     alpha: float = 2.0
     beta: float = 4.0
 
@@ -43,6 +47,7 @@ def box_loss(boxes: Tensor, wanted: Tensor, weight: Tensor, params: LossParams) 
     u, v, width, height = (boxes - wanted).abs().unbind(dim=2)
     error = params.foot * (u + v) + params.size * (width + height)
     error = error + params.overlap * (1.0 - overlap(boxes, wanted))
+    weight = weight * (params.narrow * (-wanted[:, :, 2]).exp()).clamp(1.0, params.most)
     return (error * weight).sum() / weight.sum().clamp(min=1)
 
 
