@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -9,7 +10,9 @@ import typer
 
 if TYPE_CHECKING:
     from navcore.training.augment import AugmentParams
+    from navcore.training.samples import Sample
     from navcore.training.start import Start
+    from navcore.training.trainer import TrainerParams
 
 
 def register(app: typer.Typer) -> None:
@@ -31,6 +34,9 @@ def train(
         Path | None,
         typer.Option("--from", metavar="WEIGHTS", help="Begin with a best.pt or a feet.onnx instead of at random."),
     ] = None,
+    head_only: Annotated[
+        bool, typer.Option("--head-only", help="With --from: only the last layers, in minutes on one core.")
+    ] = False,
     rate: Annotated[
         float | None, typer.Option(min=1e-7, help="Highest learning rate; without: the network's own.")
     ] = None,
@@ -63,7 +69,10 @@ def train(
             learning_rate=rate, validate_every=validate_every, augment=_cropped(crop),
             architecture=start.architecture if start else named_architecture(net or "small"),
         )  # fmt: skip
-        trainer = Trainer(out, read_samples(data, TRAINED), read_samples(validation), params)
+        training = read_samples(data, TRAINED)
+        if head_only:
+            return _ship(_head(start, training, out, params), out / "detector.onnx", validation)
+        trainer = Trainer(out, training, read_samples(validation), params)
         if start:
             trainer.begin(start)
         if resume:
@@ -73,6 +82,18 @@ def train(
     except RowpilotError as error:
         typer.echo(str(error), err=True)
         raise typer.Exit(1) from error
+
+
+def _head(start: Start | None, training: Sequence[Sample], out: Path, params: TrainerParams) -> Path:
+    """The file of a network whose last layers alone were trained; a batch is of cells there, so it is not asked."""
+    from navcore.errors import InputError
+    from navcore.training.last_layers.head_training import HeadParams, train_head
+
+    if start is None:
+        raise InputError("Only a network that is known already can have its last layers trained; add --from WEIGHTS.")
+    rate = params.learning_rate or HeadParams().rate
+    own = HeadParams(epochs=params.epochs, rate=rate, seed=params.seed, threads=params.threads)
+    return train_head(start, training, out, own, typer.echo)
 
 
 def _start(weights: Path | None, net: str | None) -> Start | None:

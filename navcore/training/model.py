@@ -39,7 +39,7 @@ class FootNetParams:
 
 # By name: the shipped one, and one that sees a little better and takes half as long again.
 NETS = {
-    "small": FootNetParams(),
+    "small": FootNetParams(channels=(8, 16, 32, 64, 96), separable=False, finer=1),
     "large": FootNetParams(channels=(16, 16, 48, 80, 112), depths=(1, 1, 2, 3), head=48),
 }
 
@@ -116,11 +116,20 @@ class FootNet(nn.Module):
         nn.init.constant_(self.logits.bias, -5.5)  # type: ignore[arg-type]
 
     def forward(self, image: Tensor) -> tuple[Tensor, Tensor]:
+        return self.told(self.under_head(image))
+
+    def under_head(self, image: Tensor) -> Tensor:
+        """What the head looks at: features (B, C, H/4, W/4)."""
         x4 = self.stride_4(image)
         x8 = self.stride_8(x4)
         x16 = self.stride_16(x8)
         x16 = self.merge_16(self.stride_32(x16), x16)
-        head = self.head(self.merge_4(self.merge_8(x16, x8), x4))
+        merged: Tensor = self.merge_4(self.merge_8(x16, x8), x4)
+        return merged
+
+    def told(self, under: Tensor) -> tuple[Tensor, Tensor]:
+        """Logits and boxes by what is under the head."""
+        head = self.head(under)
         logits = self.logits(head)
         return torch.nn.functional.pixel_shuffle(logits, self.finer) if self.finer > 1 else logits, self.boxes(head)
 

@@ -109,7 +109,7 @@ def test_finer_feet_begin_with_what_the_coarse_ones_told(tmp_path: Path) -> None
 def test_a_run_begun_with_good_weights_has_less_to_learn(tmp_path: Path) -> None:
     draw_set(tmp_path / "set", 16, 1)
     samples = read_samples(tmp_path / "set")
-    params = TrainerParams(epochs=8, batch=4, learning_rate=1e-2, device="cpu", architecture=FEW)
+    params = TrainerParams(epochs=16, batch=4, learning_rate=1e-2, device="cpu", architecture=FEW)
     anew, again = list[str](), list[str]()
     Trainer(tmp_path / "first", samples, samples[:2], params).run(anew.append)
     for number, weights in enumerate(trained_files(tmp_path / "first")):

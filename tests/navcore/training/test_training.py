@@ -211,7 +211,7 @@ def test_cells_that_are_not_asked_do_not_move_the_loss() -> None:
     logits = torch.zeros(1, 2, 4, 4)
     louder = logits.clone()
     louder[0, 1] = 5.0
-    assert focal_loss(logits, heat, 2.0, 4.0) == focal_loss(louder, heat, 2.0, 4.0)
+    assert focal_loss(logits, heat, LossParams()) == focal_loss(louder, heat, LossParams())
 
 
 def test_boxes_follow_the_pixels_when_a_picture_is_cropped_scaled_and_mirrored() -> None:
