@@ -37,6 +37,9 @@ def train(
     head_only: Annotated[
         bool, typer.Option("--head-only", help="With --from: only the last layers, in minutes on one core.")
     ] = False,
+    boxes_only: Annotated[
+        bool, typer.Option("--boxes-only", help="So, too, but feet stay found as they are: only boxes learn.")
+    ] = False,
     rate: Annotated[
         float | None, typer.Option(min=1e-7, help="Highest learning rate; without: the network's own.")
     ] = None,
@@ -70,8 +73,8 @@ def train(
             architecture=start.architecture if start else named_architecture(net or "small"),
         )  # fmt: skip
         training = read_samples(data, TRAINED)
-        if head_only:
-            return _ship(_head(start, training, out, params), out / "detector.onnx", validation)
+        if head_only or boxes_only:
+            return _ship(_head(start, training, out, params, boxes_only), out / "detector.onnx", validation)
         trainer = Trainer(out, training, read_samples(validation), params)
         if start:
             trainer.begin(start)
@@ -84,7 +87,9 @@ def train(
         raise typer.Exit(1) from error
 
 
-def _head(start: Start | None, training: Sequence[Sample], out: Path, params: TrainerParams) -> Path:
+def _head(
+    start: Start | None, training: Sequence[Sample], out: Path, params: TrainerParams, boxes_only: bool
+) -> Path:
     """The file of a network whose last layers alone were trained; a batch is of cells there, so it is not asked."""
     from navcore.errors import InputError
     from navcore.training.last_layers.head_training import HeadParams, train_head
@@ -92,7 +97,9 @@ def _head(start: Start | None, training: Sequence[Sample], out: Path, params: Tr
     if start is None:
         raise InputError("Only a network that is known already can have its last layers trained; add --from WEIGHTS.")
     rate = params.learning_rate or HeadParams().rate
-    own = HeadParams(epochs=params.epochs, rate=rate, seed=params.seed, threads=params.threads)
+    own = HeadParams(
+        boxes_only=boxes_only, epochs=params.epochs, rate=rate, seed=params.seed, threads=params.threads
+    )  # fmt: skip
     return train_head(start, training, out, own, typer.echo)
 
 

@@ -46,6 +46,8 @@ def read_shipped(path: Path) -> ShippedWeights:
 
 def _convolutions(graph: Any, to_array: Any) -> Convolutions:
     values = {tensor.name: torch.from_numpy(np.array(to_array(tensor), np.float32)) for tensor in graph.initializer}
+    for same in (node for node in graph.node if node.op_type == "Identity" and node.input[0] in values):
+        values[same.output[0]] = values[same.input[0]]
     nodes = [node for node in graph.node if node.op_type == "Conv"]
     return {_name(node.name): (values[node.input[1]], values[node.input[2]]) for node in nodes}
 

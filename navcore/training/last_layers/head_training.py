@@ -21,6 +21,7 @@ from navcore.training.start import Start
 
 Progress = Callable[[str], None]
 WARM_UP = 0.05
+DECAY = 1e-4
 # Pictures on which folded norms learn what is usual.
 SETTLED_ON = 16
 
@@ -28,16 +29,17 @@ SETTLED_ON = 16
 @dataclass(frozen=True, slots=True, kw_only=True)
 class HeadParams:
     """Attributes:
+    boxes_only: feet stay as they are, to the bit: only what no foot hangs on learns, the boxes and spare channels.
     epochs: passes over the cells.
     batch: cells a step.
     rate: the highest learning rate of the course.
     seed: of the choice and order of cells.
     """
 
+    boxes_only: bool = False
     epochs: int = 8
     batch: int = 8192
     rate: float = 4e-3
-    weight_decay: float = 1e-4
     seed: int = 1
     threads: int = 1
     loss: LossParams = LossParams()
@@ -87,7 +89,9 @@ def _on_patches(net: FootNet) -> Iterator[None]:
 
 def _descend(net: FootNet, cells: HotCells, params: HeadParams, progress: Progress) -> None:
     learning = [*net.head.parameters(), *net.logits.parameters(), *net.boxes.parameters()]
-    optimizer = torch.optim.AdamW(learning, lr=params.rate, weight_decay=params.weight_decay)
+    if params.boxes_only:
+        learning = [*_spare(net), *net.boxes.parameters()]
+    optimizer = torch.optim.AdamW(learning, lr=params.rate, weight_decay=0.0 if params.boxes_only else DECAY)
     rng = torch.Generator().manual_seed(params.seed)
     steps = math.ceil(len(cells) / params.batch)
     for epoch in range(params.epochs):
@@ -103,6 +107,16 @@ def _descend(net: FootNet, cells: HotCells, params: HeadParams, progress: Progre
             optimizer.step()
             total += float(value.detach())
         progress(f"epoch {epoch + 1}  loss {total / steps:.3f}")
+
+
+def _spare(net: FootNet) -> list[nn.Parameter]:
+    """Those of the head's last convolution and norm, with no gradient in channels that a foot hangs on."""
+    free = (net.logits.weight == 0).flatten(2).all(dim=2).all(dim=0)
+    last = [m for m in net.head.modules() if isinstance(m, nn.Conv2d)][-1]
+    norm = [m for m in net.head.modules() if isinstance(m, nn.BatchNorm2d)][-1]
+    for values in (parameters := [*last.parameters(), *norm.parameters()]):
+        values.register_hook(lambda gradient: gradient * free.view(-1, *[1] * (gradient.dim() - 1)))
+    return parameters
 
 
 def _course(fraction: float) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -78,6 +79,22 @@ def test_the_last_layers_learn_and_those_below_stay(
     before, after = load_trained(tmp_path / "begin.pt")[1].state_dict(), load_trained(best)[1].state_dict()
     changed = {name.split(".")[0] for name in before if not np.array_equal(before[name], after[name])}
     assert changed == {"head", "logits", "boxes"}
+
+
+def test_with_boxes_alone_feet_are_told_as_before_and_boxes_otherwise(
+    samples: tuple[Sample, ...], tmp_path: Path
+) -> None:
+    began, wider = begun(tmp_path, SHAPES[1]), FootArchitecture(params=replace(SHAPES[1], head=32))
+    before = began.architecture.net().eval()
+    began.begin(before, torch.zeros(1, 3, 64, 64))
+    began.architecture.export(before, tmp_path / "begin.onnx")
+    start, params = start_from(tmp_path / "begin.onnx", wider), HeadParams(boxes_only=True, epochs=2, batch=512)
+    after = load_trained(train_head(start, samples, tmp_path / "run", params, lambda _: None))[1]
+    images = Pictures(samples, 384, 640, CPU).batch([0, 3])[0].float() / 255.0
+    with torch.no_grad():
+        (feet, boxes), (same, others) = before(images), after(images)
+    np.testing.assert_allclose(same, feet, atol=1e-3)
+    assert (others - boxes).abs().max() > 0.1
 
 
 def test_a_published_network_has_no_last_layers_to_train(samples: tuple[Sample, ...], tmp_path: Path) -> None:
