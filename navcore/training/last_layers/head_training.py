@@ -115,7 +115,7 @@ def _spare(net: FootNet) -> list[nn.Parameter]:
     last = [m for m in net.head.modules() if isinstance(m, nn.Conv2d)][-1]
     norm = [m for m in net.head.modules() if isinstance(m, nn.BatchNorm2d)][-1]
     for values in (parameters := [*last.parameters(), *norm.parameters()]):
-        values.register_hook(lambda gradient: gradient * free.view(-1, *[1] * (gradient.dim() - 1)))
+        values.register_hook(lambda gradient: gradient * free.view(-1, *[1] * (gradient.dim() - 1)))  # type: ignore[no-untyped-call]
     return parameters
 
 
