@@ -24,6 +24,7 @@ from navcore.perception.image_lines import driving_camera, image_bisector, looks
 from navcore.perception.lean_watch import LeanWatch, LeanWatchParams, Reading
 from navcore.perception.least_squares import LeastSquares
 from navcore.perception.levelling import leaning_exactly, leaning_plants, level_plants, upright_offset
+from navcore.perception.one_per_foot import one_per_foot
 from navcore.perception.plants.bending_row import BendingRow, BendingRowParams
 from navcore.perception.plants.box_association import BoxAssociationParams, associate, corners_of, slopes
 from navcore.perception.plants.scanned_plants import ScannedPlants, no_plants
@@ -87,6 +88,7 @@ class Look(NamedTuple):
     Attributes:
         fault: what is wrong with the picture, empty if nothing is.
         objects: of the picture. corners: their corner points, those that count.
+        single: which of the objects tell a foot that no surer one tells.
         plants: scanned ones. found: (N,) which of them each object is, -1 for none.
         scan: what they add to the picture, None if there are none.
         level: (M, 4) the same plants as in `ScanEvidence`, but on the level ground.
@@ -95,6 +97,7 @@ class Look(NamedTuple):
     fault: str
     objects: tuple[DetectedObject, ...]
     corners: CornerPoints
+    single: NDArray[np.int64]
     plants: ScannedPlants
     found: NDArray[np.int64]
     scan: ScanEvidence | None
@@ -153,7 +156,8 @@ class RowPerception:
         view = camera_view(
             self._camera, seen.objects, seen.corners, lines, ground, bisector, row, latency_ms, self._region
         )  # fmt: skip
-        bearings = np.arctan(slopes(corners_of(seen.objects), self._camera, 0.0)) if seen.scan else np.empty(0)
+        boxes = corners_of(seen.objects)[seen.single]
+        bearings = np.arctan(slopes(boxes, self._camera, 0.0)) if seen.scan else np.empty(0)
         plants_seen = scanned_plants(seen.plants, lines.plant_sides, seen.found)
         row = replace(row, plants=plants_of_row(plants_seen) if row.in_sight else ())
         return replace(view, row=row, plants=plants_seen, bearings=tuple(bearings.tolist()), camera_x=self._camera.x)
@@ -163,13 +167,15 @@ class RowPerception:
         objects = () if fault or image is None else self._detector.detect(image)
         roll, pitch, land = (prior.roll, prior.pitch or 0.0, prior.land_roll) if prior else (0.0, 0.0, 0.0)
         # Boxes reach about as high as the scan: one body carries both sensors, however it leans.
-        found = associate(objects, plants, self._camera, pitch, self._params.association)
+        single, found = one_per_foot(objects, self._camera.width_px), np.full(len(objects), -1, dtype=np.int64)
+        told = tuple(objects[i] for i in single)
+        found[single] = associate(told, plants, self._camera, pitch, self._params.association)
         # A picture and a scan go into one fit: both as the leaning camera sees them.
         leaning = leaning_plants(plants, self._camera.z, roll, land)
-        corners, used = self._corner_points(objects)
+        corners, used = self._corner_points(objects, single)
         scan = ScanEvidence(plants=leaning.evidence(), paired=found[used]) if len(plants) else None
         level = level_plants(plants, roll, land).evidence()
-        return Look(fault, objects, corners, plants, found, scan, level)
+        return Look(fault, objects, corners, single, plants, found, scan, level)
 
     def _read_lean(self, row: GroundRow | None, cue: RowCue) -> Reading | None:
         roll, pitch = (cue.prior.roll, cue.prior.pitch or 0.0) if cue.prior else (0.0, 0.0)
@@ -189,10 +195,12 @@ class RowPerception:
         """The motion of the driving frame."""
         return SE2(-motion.x, -motion.y, motion.yaw) if motion is not None and self._backwards else motion
 
-    def _corner_points(self, objects: tuple[DetectedObject, ...]) -> tuple[CornerPoints, NDArray[np.int64]]:
+    def _corner_points(
+        self, objects: tuple[DetectedObject, ...], single: NDArray[np.int64]
+    ) -> tuple[CornerPoints, NDArray[np.int64]]:
         """Those that count, and which objects they are of."""
         c, least = self._camera, self._params.min_confidence
-        sure = np.array([i for i, o in enumerate(objects) if o.confidence >= least], dtype=np.int64)
+        sure = np.array([i for i in single if objects[i].confidence >= least], dtype=np.int64)
         corners = corner_points([objects[i] for i in sure], c.width_px, c.height_px)
         mask = geometric_filter(
             corners.points, width_px=c.width_px, height_px=c.height_px, params=self._params.filter

@@ -38,9 +38,7 @@ class YoloParams:
 # overlap by 0.7, of however many objects).
 PUBLISHED = YoloParams(
     classes={ObjectKind.TRUNK: (0,), ObjectKind.POST: (1,)},
-    decoding=DecodingParams(
-        max_objects=300, max_overlap=0.7, foot_distance_px=0.0, foot_distance_widths=0.0, across_kinds=False
-    ),
+    decoding=DecodingParams(max_objects=300, max_overlap=0.7, foot_distance_px=0.0, foot_distance_widths=0.0),
 )
 
 

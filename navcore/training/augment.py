@@ -11,6 +11,9 @@ from torch.nn import functional
 
 from navcore.training.pictures import BatchLabels
 
+# Feet that stand as near to each other are hard to tell apart.
+BESIDE_PX = 12.0
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AugmentParams:
@@ -19,6 +22,7 @@ class AugmentParams:
     Attributes:
         width_px, height_px: of the crop, multiples of 32; a part of the picture trains as well for less time.
         foot_share: share of the crops that are laid about an object's foot; the others lie anywhere.
+        crowded: how many times as often that is the foot of an object that another stands beside.
         scale: factor on the size, from 1 / scale to scale.
         stretch: factor on the width over that on the height, from 1 / stretch to stretch.
         gain, gamma: factors on brightness, contrast and each colour; exponent of the tone curve.
@@ -30,6 +34,7 @@ class AugmentParams:
     width_px: int = 256
     height_px: int = 192
     foot_share: float = 0.7
+    crowded: float = 3.0
     scale: float = 1.3
     stretch: float = 1.1
     gain: float = 1.35
@@ -69,7 +74,7 @@ def random_crop(size: torch.Size, labels: BatchLabels, params: AugmentParams, rn
     scale_u, scale_v = scale * stretch, scale / stretch
     room_u = (size[1] * scale_u - params.width_px).clamp(min=0.0)
     room_v = (size[0] * scale_v - params.height_px).clamp(min=0.0)
-    foot_u, foot_v, known = _some_foot(labels, draw)
+    foot_u, foot_v, known = _some_foot(labels, draw, params.crowded)
     about = known & (draw.uniform(0.0, 1.0) < params.foot_share)
     u0 = torch.where(about, foot_u * scale_u - params.width_px * draw.uniform(0.1, 0.9), room_u * draw.uniform(0, 1))
     v0 = torch.where(
@@ -79,13 +84,20 @@ def random_crop(size: torch.Size, labels: BatchLabels, params: AugmentParams, rn
     return Crop(scale_u=scale_u, scale_v=scale_v, u0=u0, v0=v0, flip=draw.uniform(0.0, 1.0) < 0.5)
 
 
-def _some_foot(labels: BatchLabels, draw: _Draw) -> tuple[Tensor, Tensor, Tensor]:
+def _some_foot(labels: BatchLabels, draw: _Draw, crowded: float) -> tuple[Tensor, Tensor, Tensor]:
     """Foot (u, v) of one counted object per picture, all (B,), and whether there is one."""
     known = labels.asked.any(dim=1)
-    weight = labels.asked.float() + (~known).float()[:, None]
+    weight = labels.asked * (1.0 + (crowded - 1.0) * _crowded(labels)) + (~known).float()[:, None]
     pick = torch.multinomial(weight, 1, generator=draw.rng)
     box = labels.boxes[torch.arange(len(pick), device=pick.device), pick[:, 0]]
     return (box[:, 0] + box[:, 2]) / 2, box[:, 3], known
+
+
+def _crowded(labels: BatchLabels) -> Tensor:
+    """Which counted objects (B, M) have another's foot beside their own."""
+    feet = torch.stack(((labels.boxes[..., 0] + labels.boxes[..., 2]) / 2, labels.boxes[..., 3]), dim=2)
+    near = (torch.cdist(feet, feet) < BESIDE_PX) & labels.asked[:, None] & labels.asked[..., None]
+    return near.sum(dim=2) > 1
 
 
 def cut(images: Tensor, crop: Crop, params: AugmentParams) -> Tensor:
@@ -100,7 +112,7 @@ def cut(images: Tensor, crop: Crop, params: AugmentParams) -> Tensor:
     theta[:, 1, 2] = theta[:, 1, 1] + 2.0 * crop.v0 / (crop.scale_v * height) - 1.0
     size = [len(images), 3, params.height_px, params.width_px]
     grid = functional.affine_grid(theta, size, align_corners=False)
-    return functional.grid_sample(images.float() / 255.0, grid, align_corners=False)
+    return functional.grid_sample(images.float(), grid, align_corners=False) / 255.0
 
 
 def moved(labels: BatchLabels, crop: Crop, params: AugmentParams) -> BatchLabels:
@@ -128,10 +140,13 @@ def relight(images: Tensor, params: AugmentParams, rng: torch.Generator) -> Tens
 
 
 def _blurred(images: Tensor) -> Tensor:
-    """Pictures (B, 3, h, w) under a Gaussian of 1 px."""
-    line = torch.tensor((0.06, 0.24, 0.4, 0.24, 0.06), device=images.device)
-    kernel = (line[:, None] * line[None]).expand(3, 1, 5, 5)
-    return functional.conv2d(images, kernel, padding=2, groups=3)
+    """Pictures (B, 3, h, w) under a Gaussian of 1 px, dark beyond their edges."""
+    for side in (2, 3):
+        length = images.shape[side]
+        padded = functional.pad(images, (2, 2, 0, 0) if side == 3 else (0, 0, 2, 2))
+        near, far = (padded.narrow(side, i, length) + padded.narrow(side, 4 - i, length) for i in (1, 0))
+        images = 0.4 * images + 0.24 * near + 0.06 * far
+    return images
 
 
 @dataclass(frozen=True, slots=True)

@@ -38,7 +38,7 @@ class FootArchitecture:
     def loss(self, outputs: tuple[Tensor, ...], labels: BatchLabels, height_px: int, width_px: int) -> Tensor:
         """Focal loss of the feet, L1 and overlap of the boxes."""
         logits, boxes = outputs
-        return loss(logits, boxes, targets(labels, height_px, width_px), self.weights)
+        return loss(logits, boxes, targets(labels, height_px, width_px, self.params.finer), self.weights)
 
     def detector(self, net: nn.Module) -> Detector:
         """Peaks decoded as on the robot."""

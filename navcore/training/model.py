@@ -1,8 +1,8 @@
 """The detector's network: a small anchor-free net that looks for the feet of trunks and posts.
 
 A foot is where the object meets the ground; the row fit needs nothing else that exactly. So the map's peaks are feet,
-not box centres, and the box hangs above its foot. A vine often stands a hand's breadth from a post: so feet are told
-twice as finely as boxes, and each class has boxes of its own.
+not box centres, and the box hangs above its foot. A vine often stands a hand's breadth from a post: so each class has
+boxes of its own.
 """
 
 from __future__ import annotations
@@ -12,9 +12,8 @@ from dataclasses import dataclass
 import torch
 from torch import Tensor, nn
 
-# Of the box values, px, and how many feet fit into a cell of them along each side.
+# Of the box values, px.
 STRIDE = 4
-FINER = 2
 CLASSES = 2
 INPUT_HEIGHT_PX, INPUT_WIDTH_PX = 384, 640
 
@@ -27,16 +26,20 @@ class FootNetParams:
         channels: at strides 2, 4, 8, 16 and 32.
         depths: residual convolutions at strides 4, 8, 16 and 32.
         head: channels of the head.
+        separable: whether the head looks at each channel by itself before it mixes them, for less time.
+        finer: how many feet fit into a cell of the box values along each side.
     """
 
     channels: tuple[int, int, int, int, int] = (16, 16, 32, 64, 96)
     depths: tuple[int, int, int, int] = (0, 1, 2, 2)
     head: int = 32
+    separable: bool = True
+    finer: int = 2
 
 
 # By name: the shipped one, and one that sees a little better and takes half as long again.
 NETS = {
-    "small": FootNetParams(),
+    "small": FootNetParams(channels=(8, 16, 32, 64, 96), separable=False, finer=1),
     "large": FootNetParams(channels=(16, 16, 48, 80, 112), depths=(1, 1, 2, 3), head=48),
 }
 
@@ -93,11 +96,11 @@ class Merge(nn.Module):
 
 
 class FootNet(nn.Module):
-    """(B, 3, H, W) BGR, 0 to 1, H and W multiples of 32 -> logits (B, 2, H/2, W/2) and boxes (B, 8, H/4, W/4).
+    """(B, 3, H, W) BGR, 0 to 1, H and W multiples of 32 -> logits (B, 2, n H/4, n W/4) and boxes (B, 8, H/4, W/4).
 
-    Logits are for (trunk, post). The box values of a cell are, in cells of 4 px and first for trunks, then for
-    posts: foot u and v from the cell's middle (foot: middle of the box's lower edge), and the logarithms of width and
-    height.
+    Logits are for (trunk, post), n is `finer`. The box values of a cell are, in cells of 4 px and first for trunks,
+    then for posts: foot u and v from the cell's middle (foot: middle of the box's lower edge), and the logarithms of
+    width and height.
     """
 
     def __init__(self, params: FootNetParams = FootNetParams()) -> None:
@@ -107,18 +110,28 @@ class FootNet(nn.Module):
         self.stride_4 = nn.Sequential(ConvUnit(3, a, 2), stage(a, b, at_4))
         self.stride_8, self.stride_16, self.stride_32 = stage(b, c, at_8), stage(c, d, at_16), stage(d, e, at_32)
         self.merge_16, self.merge_8, self.merge_4 = Merge(e, d), Merge(d, c), Merge(c, b)
-        self.head = SeparableUnit(b, params.head)
-        self.logits = nn.Conv2d(params.head, CLASSES * FINER**2, 1)
+        self.head = SeparableUnit(b, params.head) if params.separable else ConvUnit(b, params.head)
+        self.finer, self.logits = params.finer, nn.Conv2d(params.head, CLASSES * params.finer**2, 1)
         self.boxes = nn.Conv2d(params.head, CLASSES * 4, 1)
         nn.init.constant_(self.logits.bias, -5.5)  # type: ignore[arg-type]
 
     def forward(self, image: Tensor) -> tuple[Tensor, Tensor]:
+        return self.told(self.under_head(image))
+
+    def under_head(self, image: Tensor) -> Tensor:
+        """What the head looks at: features (B, C, H/4, W/4)."""
         x4 = self.stride_4(image)
         x8 = self.stride_8(x4)
         x16 = self.stride_16(x8)
         x16 = self.merge_16(self.stride_32(x16), x16)
-        head = self.head(self.merge_4(self.merge_8(x16, x8), x4))
-        return torch.nn.functional.pixel_shuffle(self.logits(head), FINER), self.boxes(head)
+        merged: Tensor = self.merge_4(self.merge_8(x16, x8), x4)
+        return merged
+
+    def told(self, under: Tensor) -> tuple[Tensor, Tensor]:
+        """Logits and boxes by what is under the head."""
+        head = self.head(under)
+        logits = self.logits(head)
+        return torch.nn.functional.pixel_shuffle(logits, self.finer) if self.finer > 1 else logits, self.boxes(head)
 
 
 def peaks(logits: Tensor) -> Tensor:

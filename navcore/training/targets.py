@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import torch
 from torch import Tensor
 
-from navcore.training.model import CLASSES, FINER, STRIDE
+from navcore.training.model import CLASSES, STRIDE
 from navcore.training.pictures import BatchLabels
 
 # Standard deviation of the peak about a foot, in cells of the peak map.
@@ -21,7 +21,7 @@ WEIGHTS = {"other around": 0.1, "other": 0.3, "around": 0.3, "own": 1.0}
 class Targets:
     """Attributes (h = H / 4, w = W / 4).
 
-    heat: (B, 2, 2 h, 2 w) 1 at a foot, falling off around it; -1 where nothing is asked (ignored objects).
+    heat: (B, 2, n h, n w) 1 at a foot, falling off around it; -1 where nothing is asked (ignored objects).
     boxes: (B, 2, 4, h, w) per class as `FootNet` gives them.
     weight: (B, 2, h, w) of the box values; 0 where no foot is near.
     """
@@ -45,13 +45,16 @@ class _Feet:
     asked: Tensor
 
 
-def targets(labels: BatchLabels, height_px: int, width_px: int) -> Targets:
-    """Targets for pictures of that size, multiples of 4. Feet outside of the picture are not asked for."""
+def targets(labels: BatchLabels, height_px: int, width_px: int, finer: int = 2) -> Targets:
+    """Targets for pictures of that size, multiples of 4, and feet `finer` times as finely told as boxes.
+
+    Feet outside of the picture are not asked for.
+    """
     h, w = height_px // STRIDE, width_px // STRIDE
-    fine = _feet(labels, STRIDE // FINER, FINER * h, FINER * w)
-    heat = _heat(fine, FINER * h, FINER * w)
+    fine = _feet(labels, STRIDE // finer, finer * h, finer * w)
+    heat = _heat(fine, finer * h, finer * w)
     unasked = _masked(
-        labels.boxes * (FINER / STRIDE), (labels.ignored | labels.asked) & ~fine.asked, FINER * h, FINER * w
+        labels.boxes * (finer / STRIDE), (labels.ignored | labels.asked) & ~fine.asked, finer * h, finer * w
     )
     heat = torch.where(unasked[:, None] & (heat < 0.5), torch.full_like(heat, -1.0), heat)
     return Targets(heat=heat, **_box_values(_feet(labels, STRIDE, h, w), h, w))

@@ -11,7 +11,7 @@ from torch import nn
 from navcore.messages import DetectedObject
 from navcore.perception.box_decoding import DecodingParams, decode, detected_objects
 from navcore.perception.detector import Image
-from navcore.training.model import FINER, STRIDE, peaks
+from navcore.training.model import peaks
 
 
 class TorchDetector:
@@ -30,5 +30,6 @@ class TorchDetector:
         padded[:height, :width] = image.astype(np.float32) / 255
         blob = torch.from_numpy(padded).permute(2, 0, 1)[None].contiguous(memory_format=torch.channels_last)
         logits, boxes = (values.cpu() for values in self._net(blob.to(self._device)))
-        found, confidence, kinds = decode(peaks(logits)[0].numpy(), boxes[0].numpy(), STRIDE // FINER, self._decoding)
+        stride = padded.shape[1] // logits.shape[3]
+        found, confidence, kinds = decode(peaks(logits)[0].numpy(), boxes[0].numpy(), stride, self._decoding)
         return detected_objects(found, confidence, kinds, scale=1.0, width_px=width, height_px=height)

@@ -21,8 +21,11 @@ from navcore.training.model import INPUT_HEIGHT_PX, INPUT_WIDTH_PX
 from navcore.training.pictures import Pictures
 from navcore.training.running_mean import RunningMean
 from navcore.training.samples import Sample
+from navcore.training.start import Start
 
 Progress = Callable[[str], None]
+# Pictures on which folded norms learn what is usual.
+SETTLED_ON = 48
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -78,6 +81,14 @@ class Trainer:
         self._budget = Budget(steps=params.epochs * self._steps, minutes=params.minutes)
         self._epoch, self._best, self._validated = 0, -1.0, 0.0
         folder.mkdir(parents=True, exist_ok=True)
+
+    def begin(self, start: Start) -> None:
+        """Begin with those weights. Raises ModelError for those of another architecture."""
+        rng = torch.Generator(self._device).manual_seed(self._params.seed)
+        some = np.linspace(0, len(self._pictures) - 1, SETTLED_ON).round().astype(int)
+        images, _ = augment(*self._pictures.batch(some.tolist()), self._params.augment, rng)
+        start.begin(self._net, images)
+        self._mean = RunningMean(self._net, self._params.average)
 
     def resume(self) -> None:
         """Go on from `last.pt`. Raises ModelError if it is missing or of another run."""

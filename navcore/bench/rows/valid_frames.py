@@ -17,6 +17,7 @@ from navcore.perception.corner_points import CornerPoints, corner_points
 from navcore.perception.corridor_track import CorridorTrackerParams
 from navcore.perception.geometric_filter import GeometricFilterParams, geometric_filter
 from navcore.perception.image_lines import image_line
+from navcore.perception.one_per_foot import one_per_foot
 from navcore.perception.row_lines import RowCue, RowLineFitter, RowLines, RowPrior
 from navcore.perception.row_perception import RowMethod, RowPerceptionParams, row_line_fitter
 
@@ -125,7 +126,8 @@ def cue(frame: RecordedFrame) -> RowCue:
 
 def candidates(frame: RecordedFrame, camera: PinholeCamera) -> CornerPoints:
     """The candidate points of a frame, as the published chain makes them."""
-    corners = corner_points(frame.objects, camera.width_px, camera.height_px)
+    single = [frame.objects[i] for i in one_per_foot(frame.objects, camera.width_px)]
+    corners = corner_points(single, camera.width_px, camera.height_px)
     mask = geometric_filter(
         corners.points, width_px=camera.width_px, height_px=camera.height_px, params=PUBLISHED_FILTER
     )  # fmt: skip

@@ -29,11 +29,12 @@ def test_what_is_below_the_threshold_is_not_found() -> None:
     assert found.shape == (0, 4)
 
 
-def test_two_feet_on_the_same_spot_are_one_object_of_the_surer_class() -> None:
+def test_two_feet_on_the_same_spot_are_one_object_of_the_surer_class_if_classes_are_not_kept_apart() -> None:
     peaks, boxes = maps()
     peaks[1, 15, 25] = 0.95
-    _, confidence, kinds = decode(peaks, boxes, 4, DecodingParams())
+    _, confidence, kinds = decode(peaks, boxes, 4, DecodingParams(across_kinds=True))
     assert (len(confidence), kinds) == (1, [1])
+    assert decode(peaks, boxes, 4, DecodingParams())[2] == [1, 0]
 
 
 def test_neighbours_that_do_not_overlap_both_stay() -> None:
@@ -41,12 +42,11 @@ def test_neighbours_that_do_not_overlap_both_stay() -> None:
     assert suppress(boxes, np.zeros(3, np.int64), DecodingParams()) == [0, 1]
 
 
-def test_a_vine_before_a_post_may_stay_and_two_posts_with_one_foot_do_not() -> None:
+def test_a_vine_before_a_post_stays_and_two_posts_with_one_foot_do_not() -> None:
     boxes = np.array([[10.0, 0.0, 18.0, 40.0], [12.0, 10.0, 17.0, 41.0]])
-    each_kind = DecodingParams(across_kinds=False)
-    assert suppress(boxes, np.array([1, 0]), each_kind) == [0, 1]
-    assert suppress(boxes, np.array([1, 1]), each_kind) == [0]
-    assert suppress(boxes, np.array([1, 0]), DecodingParams()) == [0]
+    assert suppress(boxes, np.array([1, 0]), DecodingParams()) == [0, 1]
+    assert suppress(boxes, np.array([1, 1]), DecodingParams()) == [0]
+    assert suppress(boxes, np.array([1, 0]), DecodingParams(across_kinds=True)) == [0]
 
 
 def test_finer_peaks_take_the_values_of_the_cell_around_them_and_of_their_class() -> None:

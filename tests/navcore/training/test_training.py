@@ -13,7 +13,6 @@ import torch
 from navcore.errors import InputError, ModelError
 from navcore.perception.onnx_detector import OnnxDetector, OnnxDetectorParams
 from navcore.training.architecture_choice import load_trained
-from navcore.training.augment import AugmentParams, augment
 from navcore.training.budget import Budget
 from navcore.training.evaluate import evaluate, table
 from navcore.training.export import export_onnx
@@ -211,22 +210,26 @@ def test_cells_that_are_not_asked_do_not_move_the_loss() -> None:
     logits = torch.zeros(1, 2, 4, 4)
     louder = logits.clone()
     louder[0, 1] = 5.0
-    assert focal_loss(logits, heat, 2.0, 4.0) == focal_loss(louder, heat, 2.0, 4.0)
+    assert focal_loss(logits, heat, LossParams()) == focal_loss(louder, heat, LossParams())
 
 
-def test_boxes_follow_the_pixels_when_a_picture_is_cropped_scaled_and_mirrored() -> None:
-    image = np.zeros((360, 640, 3), np.uint8)
-    image[100:200, 300:320] = 255
-    labels = Labels(boxes=np.array([[300.0, 100.0, 320.0, 200.0]]), kinds=np.array([0]), ignore=np.array([False]))
-    plain = AugmentParams(
-        gain=1.0, gamma=1.0, noise=0.0, fade=0.0, blur_share=0.0, foot_share=1.0, width_px=320, height_px=320
-    )
-    rng = torch.Generator().manual_seed(4)
-    tensor = torch.from_numpy(image).permute(2, 0, 1)[None].expand(8, -1, -1, -1)
-    crops, moved = augment(tensor, stack_labels([labels] * 8, [1.0] * 8, CPU), plain, rng)
-    for crop, box in zip(crops, moved.boxes, strict=True):
-        rows, columns = torch.nonzero(crop[0] > 0.5, as_tuple=True)
-        x1, y1, x2, y2 = box[0].clamp(0, 320).tolist()
-        assert (int(columns.min()), int(rows.min())) == pytest.approx((x1, y1), abs=1.5)  # px
-        assert (int(columns.max()) + 1, int(rows.max()) + 1) == pytest.approx((x2, y2), abs=1.5)  # px
-    assert len({tuple(box) for box in moved.boxes[:, 0].tolist()}) == 8
+def test_what_is_told_of_a_class_at_the_others_foot_weighs_more_than_elsewhere() -> None:
+    heat = torch.zeros(1, 2, 6, 6)
+    heat[0, 0, 1, 1] = 1.0
+    at_foot, elsewhere = torch.full((1, 2, 6, 6), -5.0), torch.full((1, 2, 6, 6), -5.0)
+    at_foot[0, 0, 1, 1] = elsewhere[0, 0, 1, 1] = 5.0
+    at_foot[0, 1, 1, 1] = elsewhere[0, 1, 4, 4] = 2.0
+    more, less = (float(focal_loss(logits, heat, LossParams(confused=4.0))) for logits in (at_foot, elsewhere))
+    alike = [float(focal_loss(logits, heat, LossParams(confused=1.0))) for logits in (at_foot, elsewhere)]
+    assert more > 2.0 * less
+    assert alike[0] == pytest.approx(alike[1])
+
+
+def test_the_width_of_a_narrow_box_weighs_more_than_that_of_a_wide_one() -> None:
+    wanted, weight = torch.zeros(1, 2, 4, 1, 2), torch.ones(1, 2, 1, 2)
+    wanted[0, :, 2, 0, 1] = 1.5
+    narrow, wide = wanted.clone(), wanted.clone()
+    narrow[0, :, 2, 0, 0] += 0.3
+    wide[0, :, 2, 0, 1] += 0.3
+    losses = [float(box_loss(boxes, wanted, weight, LossParams())) for boxes in (narrow, wide)]
+    assert losses[0] > 1.5 * losses[1]
