@@ -39,8 +39,8 @@ class ChordPursuit:
         x, y = pursuit_point(target, look_ahead)
         curvature = math.atan(2.0 * p.chord * math.sin(math.atan2(y, x)) / look_ahead) / p.chord
         omega = min(max(v * curvature, -p.max_turn_rate), p.max_turn_rate)
-        saturated = abs(omega) >= p.max_turn_rate
-        return Steering(v=v, omega=omega, curvature=curvature, turn_gain=1.0, saturated=saturated)
+        demand = abs(v * curvature) / p.max_turn_rate
+        return Steering(v=v, omega=omega, curvature=curvature, turn_gain=1.0, demand=demand)
 
     def reset(self) -> None:
         """Nothing is remembered."""

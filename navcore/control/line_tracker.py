@@ -108,9 +108,7 @@ class LineTracker:
     def _command(self, curvature: float, v: float) -> Steering:
         wanted, limit = v * curvature / self.turn_gain, self._params.max_turn_rate
         omega = min(max(wanted, -limit), limit)
-        return Steering(
-            v=v, omega=omega, curvature=curvature, turn_gain=self.turn_gain, saturated=abs(wanted) > limit
-        )
+        return Steering(v=v, omega=omega, curvature=curvature, turn_gain=self.turn_gain, demand=abs(wanted) / limit)
 
     def _integrate(self, target: TargetLine, steering: Steering, now_ns: int) -> None:
         p = self._params

@@ -121,5 +121,5 @@ class LqrTracker:
         wanted, limit = omega / self.turn_gain, self._params.max_turn_rate
         return Steering(
             v=v, omega=min(max(wanted, -limit), limit), curvature=omega / max(v, self._params.slowest),
-            turn_gain=self.turn_gain, saturated=abs(wanted) > limit,
+            turn_gain=self.turn_gain, demand=abs(wanted) / limit,
         )  # fmt: skip

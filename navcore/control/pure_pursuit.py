@@ -69,7 +69,7 @@ class PurePursuit:
         curvature = pursuit_curvature(*pursuit_point(target, look_ahead))
         limit = self._params.max_turn_rate
         omega = min(max(v * curvature, -limit), limit)
-        return Steering(v=v, omega=omega, curvature=curvature, turn_gain=1.0, saturated=abs(omega) >= limit)
+        return Steering(v=v, omega=omega, curvature=curvature, turn_gain=1.0, demand=abs(v * curvature) / limit)
 
     def reset(self) -> None:
         """Nothing is remembered."""

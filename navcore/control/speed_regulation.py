@@ -106,6 +106,14 @@ def push_limit(curvature: float, push: float, turn_gain: float, params: SpeedReg
     return SpeedLimit(speed=speed, reason=PUSHED)
 
 
+def demand_limit(demand: float, speed: float, params: SpeedRegulationParams) -> SpeedLimit:
+    """While steering asks for `demand` times the turn rate there is, slower than `speed` by as much: what is steered
+    for is a curve.
+    """
+    slower = max(speed / max(demand, 1.0), params.capture_speed)
+    return SpeedLimit(speed=slower if demand > 1.0 else math.inf, reason="steering is at its limit")
+
+
 def end_limit(remaining: float | None, params: SpeedRegulationParams, end_speed: float = 0.0) -> SpeedLimit:
     """Braking for the end of the line; `end_speed` where the path goes on with that speed."""
     if remaining is None:
@@ -153,7 +161,8 @@ class SpeedRegulation:
 
     def regulate(
         self, target: TargetLine, *, wanted: float, now_ns: int, turn_gain: float, lateral_std: float | None,
-        capturing: bool = False, end_speed: float = 0.0, push: float = 0.0, others: tuple[SpeedLimit, ...] = (),
+        capturing: bool = False, end_speed: float = 0.0, push: float = 0.0, demand: float = 0.0,
+        others: tuple[SpeedLimit, ...] = (),
     ) -> SpeedLimit:  # fmt: skip
         """Speed for this tick with the tightest cause.
 
@@ -162,6 +171,7 @@ class SpeedRegulation:
             lateral_std: 1-sigma of the position across the line, m, None if not known (then the answer is 0).
             end_speed: speed at which the line's end may be passed.
             push: curvature that the ground adds to what is steered, 1/m, + left.
+            demand: as in `Steering`, of the last tick.
             others: limits found elsewhere (zones, events).
         """
         p = self._params
@@ -169,6 +179,7 @@ class SpeedRegulation:
             SpeedLimit(speed=wanted, reason="as planned"),
             curve_limit(target, turn_gain, p),
             push_limit(target.curvature_ahead(0.0), push, turn_gain, p),
+            demand_limit(demand, self._speed, p),
             end_limit(target.remaining, p, end_speed),
             deviation_limit(target.lateral_error, capturing, p),
             quality_limit(lateral_std, wanted, p),

@@ -39,7 +39,7 @@ class Steering:
         omega: rad/s to be commanded, within the limit.
         curvature: of the wanted motion, 1/m, before limits and slip correction.
         turn_gain: share of a commanded turn rate that the ground is believed to give.
-        saturated: the limit on omega was reached.
+        demand: share of the limit on omega that was wanted; above 1 the robot turns less than it should.
 
     Raises NotFiniteError for a command that is no number.
     """
@@ -48,7 +48,12 @@ class Steering:
     omega: float
     curvature: float
     turn_gain: float
-    saturated: bool
+    demand: float = 0.0
+
+    @property
+    def saturated(self) -> bool:
+        """The limit on omega was reached."""
+        return self.demand >= 1.0
 
     def __post_init__(self) -> None:
         if not (isfinite(self.v) and isfinite(self.omega)):

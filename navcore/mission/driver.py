@@ -80,7 +80,7 @@ class Driver:
         self.tracking = new_tracking(params.tracking, params.tracker, params.look_ahead, params.actuator)
         self.controller = self.tracking.controller
         self.regulation = SpeedRegulation(params.speed, max_acceleration=vehicle.max_acceleration)
-        self._leg = 0
+        self._leg, self._demand = 0, 0.0
         self._zones = self._new_zones((), ())
 
     def take(self, plan: MissionPlan) -> None:
@@ -92,6 +92,7 @@ class Driver:
         """Forget what belongs to the last line: the robot stands."""
         self.controller.reset()
         self.regulation.reset()
+        self._demand = 0.0
 
     def _new_zones(self, keep_in: Polygons, keep_out: Polygons) -> StopZones:
         body, p = self.vehicle, self.params
@@ -113,6 +114,7 @@ class Driver:
         sign = -1.0 if pilot.leg.reverse else 1.0
         motion = Motion(v=sign * pose.v, omega=pose.omega, drift=sign * senses.drift, wheel_omega=senses.wheel_omega)
         steering = self._steer(target, pilot, motion, limit.speed, now_ns)
+        self._demand = steering.demand
         return Driving(
             v=sign * steering.v,
             omega=steering.omega,
@@ -174,7 +176,7 @@ class Driver:
         ))  # fmt: skip
         return self.regulation.regulate(
             target, wanted=wanted.speed, now_ns=now_ns, turn_gain=self.controller.turn_gain, lateral_std=0.0,
-            capturing=True, push=self.controller.slip, others=limits,
+            capturing=True, push=self.controller.slip, demand=self._demand, others=limits,
         )  # fmt: skip
 
     def _steer(self, target: TargetLine, pilot: Pilot, motion: Motion, speed: float, now_ns: int) -> Steering:

@@ -88,16 +88,17 @@ def _footprints(way: Track, speed: float, config: RobotConfig, chassis: Chassis)
     tracking = new_tracking(params.tracking, params.tracker, params.look_ahead, params.actuator)
     regulation = SpeedRegulation(params.speed, max_acceleration=config.vehicle_params().max_acceleration)
     planned = np.array(track_plan(way, speed, config.vehicle_params()).segments[0].speeds)
-    s, now_ns = 0.0, 0
+    s, now_ns, demand = 0.0, 0, 0.0
     while line.length - s > _NEAR_END and now_ns * 1e-9 < 5.0 * line.length / speed:
         target = _target(line, chassis.pose, now_ns, s, tracking.sight)
         s, motion = line.length - max(target.remaining or 0.0, 0.0), chassis.motion
         v = regulation.regulate(
             target, wanted=_planned(planned, line, s), now_ns=now_ns, turn_gain=tracking.controller.turn_gain,
-            lateral_std=0.0, capturing=True, push=tracking.controller.slip,
+            lateral_std=0.0, capturing=True, push=tracking.controller.slip, demand=demand,
         ).speed  # fmt: skip
         aim = tracking.look_ahead(Way(v=v, curvature=target.curvature_ahead(0.0), in_row=False, room=None))
         steering = tracking.controller.steer(target, motion, v=v, look_ahead=aim, now_ns=now_ns)
+        demand = steering.demand
         chassis.tick(steering.v, steering.omega)
         now_ns += _TICK_NS
         yield Footprint(s, target.lateral_error, motion.v)

@@ -38,8 +38,8 @@ class BendingRowParams:
         next_std, next_turn_std: 1-sigma of where the next line on either side stands about one width further out, m,
             and of how far it turns from the row, rad. next_sure: only plants as sure as that stand on them, 0 to 1:
             those that the camera has seen as well.
-        doubt: by so much smaller than told is the logarithm of the odds that an upright is a plant, >= 0: of those that
-            no picture has shown as one, most that stand on a line of young trees are weeds.
+        doubt: by so much smaller than told is the logarithm of the odds that an upright is a plant, >= 0: of those
+            that no picture has shown as one, most that stand on a line of young trees are weeds.
         span: the told direction and curvature are those of the circle through the middle here and so far behind and
             ahead, > 0.
         fewest: plants on each side; with fewer there is nothing to add to the corridor.

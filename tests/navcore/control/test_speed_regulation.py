@@ -15,6 +15,7 @@ from navcore.control.speed_regulation import (
     SpeedRegulationParams,
     braking_speed,
     curve_speed,
+    demand_limit,
     deviation_limit,
     end_limit,
     push_limit,
@@ -78,6 +79,13 @@ def test_where_the_ground_turns_the_robot_it_drives_only_as_fast_as_it_can_steer
 def test_ground_that_pushes_the_way_the_line_bends_slows_nobody() -> None:
     assert push_limit(0.2, 0.2, 0.5, P).speed > 100.0
     assert push_limit(0.2, -0.2, 0.5, P).speed == pytest.approx(push_limit(0.0, 0.4, 0.5, P).speed)
+
+
+def test_a_robot_that_cannot_steer_as_hard_as_it_should_goes_slower_but_does_not_stop() -> None:
+    assert demand_limit(1.5, 1.2, P).speed == pytest.approx(0.8)
+    assert demand_limit(9.0, 1.2, P).speed == P.capture_speed
+    assert demand_limit(0.9, 1.2, P).speed == math.inf
+    assert "steering" in demand_limit(1.5, 1.2, P).reason
 
 
 def test_lateral_acceleration_counts_where_turning_is_easy() -> None:

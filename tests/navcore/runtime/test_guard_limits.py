@@ -25,7 +25,9 @@ def test_the_guard_lets_through_what_the_navigator_may_ask_of_the_vehicle(name: 
 
 @pytest.mark.parametrize("name", PROFILES)
 def test_the_guard_is_started_with_the_limits_of_the_vehicle(name: str, tmp_path: Path) -> None:
-    robot = Robot(bus=tmp_path, site=tmp_path / "site.json", vehicle=name, can=CanSettings(), gnss="tcp://localhost:1")
+    robot = Robot(
+        bus=tmp_path, site=tmp_path / "site.json", vehicle=name, can=CanSettings(), gnss="tcp://localhost:1"
+    )
     told = guard_arguments(robot)
     assert float(told[told.index("--max-speed") + 1]) == PROFILES[name].max_speed
     assert float(told[told.index("--max-turn-rate") + 1]) == PROFILES[name].max_turn_rate
