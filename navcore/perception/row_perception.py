@@ -88,7 +88,6 @@ class Look(NamedTuple):
     Attributes:
         fault: what is wrong with the picture, empty if nothing is.
         objects: of the picture. corners: their corner points, those that count.
-        single: which of the objects tell a foot that no surer one tells.
         plants: scanned ones. found: (N,) which of them each object is, -1 for none.
         scan: what they add to the picture, None if there are none.
         level: (M, 4) the same plants as in `ScanEvidence`, but on the level ground.
@@ -97,7 +96,6 @@ class Look(NamedTuple):
     fault: str
     objects: tuple[DetectedObject, ...]
     corners: CornerPoints
-    single: NDArray[np.int64]
     plants: ScannedPlants
     found: NDArray[np.int64]
     scan: ScanEvidence | None
@@ -156,8 +154,7 @@ class RowPerception:
         view = camera_view(
             self._camera, seen.objects, seen.corners, lines, ground, bisector, row, latency_ms, self._region
         )  # fmt: skip
-        boxes = corners_of(seen.objects)[seen.single]
-        bearings = np.arctan(slopes(boxes, self._camera, 0.0)) if seen.scan else np.empty(0)
+        bearings = np.arctan(slopes(corners_of(seen.objects), self._camera, 0.0)) if seen.scan else np.empty(0)
         plants_seen = scanned_plants(seen.plants, lines.plant_sides, seen.found)
         row = replace(row, plants=plants_of_row(plants_seen) if row.in_sight else ())
         return replace(view, row=row, plants=plants_seen, bearings=tuple(bearings.tolist()), camera_x=self._camera.x)
@@ -175,7 +172,7 @@ class RowPerception:
         corners, used = self._corner_points(objects, single)
         scan = ScanEvidence(plants=leaning.evidence(), paired=found[used]) if len(plants) else None
         level = level_plants(plants, roll, land).evidence()
-        return Look(fault, objects, corners, single, plants, found, scan, level)
+        return Look(fault, objects, corners, plants, found, scan, level)
 
     def _read_lean(self, row: GroundRow | None, cue: RowCue) -> Reading | None:
         roll, pitch = (cue.prior.roll, cue.prior.pitch or 0.0) if cue.prior else (0.0, 0.0)

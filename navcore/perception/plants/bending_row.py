@@ -58,7 +58,7 @@ class BendingRowParams:
     next_std: float = 0.3
     next_turn_std: float = 0.01
     next_sure: float = 0.9
-    doubt: float = 4.0
+    doubt: float = 2.0
     span: float = 1.0
     fewest: int = 2
 

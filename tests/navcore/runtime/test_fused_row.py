@@ -3,13 +3,22 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from navcore.geometry.lidar_mount import robot_lidar
 from navcore.geometry.se2 import SE2
-from navcore.messages import CameraName, CameraRequest, CameraView, DetectedObject, LidarScan, RowSource
+from navcore.messages import (
+    CameraName,
+    CameraRequest,
+    CameraView,
+    DetectedObject,
+    LidarScan,
+    ObjectKind,
+    RowSource,
+)
 from navcore.perception.detector import Told
 from navcore.perception.plants.scan_eye import ScanEye
 from navcore.perception.row_perception import RowPerception, RowPerceptionParams
@@ -36,12 +45,15 @@ class Drive:
         self.told, self.rng, self.i, self.pose = Told(), rng, 0, SE2(0.0, 0.1, 0.02)
         perception = RowPerception(FRONT, self.told, RowPerceptionParams())
         eye = ScanEye(MOUNT) if lidar else None
+        self.boxes_again = False
         self.eye = RowEye({CameraName.FRONT: perception}, {CameraName.FRONT: FRONT}, eye)
 
     def look(self, *, camera: bool = True, scan: bool = True) -> CameraView:
         """One picture further."""
         self.pose, self.i = self.pose @ SE2.arc(STEP, -0.0008), self.i + 1
-        self.told.objects = self._boxes()
+        boxes = self._boxes()
+        posts = (replace(box, kind=ObjectKind.POST, confidence=0.5) for box in boxes if self.boxes_again)
+        self.told.objects = (*boxes, *posts)
         image = picture(FRONT) if camera else None
         return self.eye.look(image, self.i * NS, self._request(), scans=(self._scan(),) if scan else ())
 
@@ -117,6 +129,22 @@ def test_nearly_all_objects_are_given_the_plant_that_they_are() -> None:
     assert whole > 150
     assert right >= 0.95 * whole
     assert wrong <= 0.01 * whole
+
+
+def test_a_tree_that_is_told_as_a_post_as_well_is_one_tree() -> None:
+    """And each of its boxes keeps its own bearing: the watch of the camera's mount looks it up by number."""
+    plain, doubled = Drive(3), Drive(3)
+    doubled.boxes_again = True
+    for _ in range(30):
+        alone, view = plain.look(), doubled.look()
+        assert view.row == alone.row
+        assert len(view.objects) == 2 * len(alone.objects)
+        assert len(view.bearings) == (len(view.objects) if view.plants else 0)
+        for plant in view.plants:
+            if plant.object is not None:
+                straight_at = math.atan2(plant.y, plant.x - view.camera_x)
+                assert view.bearings[plant.object] == pytest.approx(straight_at, abs=math.radians(3.0))
+    assert any(plant.object is not None for plant in view.plants)
 
 
 def _trunk_of(drive: Drive, box: DetectedObject) -> int:

@@ -125,7 +125,7 @@ def test_uprights_that_no_picture_has_shown_hardly_move_a_middle_that_sure_plant
     row = plants(0.0 * AHEAD, 0.05)
     weeds = plants(0.2 + 0.0 * AHEAD, 0.05, seed=2)
     weeds[:, 0], weeds[:, 3] = weeds[:, 0] + 0.7, 0.6
-    assert abs(fitted(np.vstack((row, weeds))).offset - fitted(row).offset) < 0.02  # m; as sure as told it is 0.08
+    assert abs(fitted(np.vstack((row, weeds))).offset - fitted(row).offset) < 0.03  # m; as sure as told it is 0.08
 
 
 def test_where_no_picture_has_shown_any_the_uprights_tell_the_middle_all_the_same() -> None:
