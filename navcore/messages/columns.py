@@ -6,10 +6,10 @@ from collections.abc import Iterable
 from dataclasses import fields
 from typing import Any, TypeVar
 
-T = TypeVar("T")
+_Message = TypeVar("_Message")
 
 
-def made_of_columns(kind: type[T], *columns: Iterable[Any]) -> tuple[T, ...]:
+def made_of_columns(kind: type[_Message], *columns: Iterable[Any]) -> tuple[_Message, ...]:
     """One frozen message with slots for each row of its fields' columns, all as long, in the order of the fields.
 
     A frozen dataclass's own `__init__` takes five times as long, and each picture comes with a hundred plants.

@@ -37,6 +37,7 @@ class ActingNavigator:
 
     def __init__(self, site: SiteMap, params: UnderstudyParams, path: Path) -> None:
         self.config = RobotConfig()
+        self.vehicle = self.config.vehicle_params()
         self.understudy = Understudy(lambda: self.config.new_navigator(site.datum), START_NS, params)
         self.datum = (site.datum.lat_deg, site.datum.lon_deg, site.datum.height_m)
         self.recorder = Recorder()
