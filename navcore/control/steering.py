@@ -48,7 +48,7 @@ class Steering:
     omega: float
     curvature: float
     turn_gain: float
-    demand: float = 0.0
+    demand: float
 
     @property
     def saturated(self) -> bool:

@@ -6,6 +6,8 @@ do in some. Over time that tells them apart, also where they stand in line for t
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -30,8 +32,12 @@ def share_past(
     """
     if not len(angles):
         return np.zeros(len(xy))
-    plane = np.linalg.inv(mount.R_base_lidar()[:2, :2]).astype(np.float64)
-    at = np.array((mount.x, mount.y))
     ends = ends_of(distances, round(_BLIND_TURN * len(distances)))
     moved = np.array((turn.x, turn.y, turn.yaw))
-    return np.asarray(shares_past(xy, diameter, rays_by_sector(angles), ends, plane, at, moved, margin))
+    return np.asarray(shares_past(xy, diameter, rays_by_sector(angles), ends, *_plane(mount), moved, margin))
+
+
+@lru_cache(maxsize=4)  # asked for with each scan
+def _plane(mount: LidarMount) -> tuple[Floats, Floats]:
+    """What takes places in `base_link` to the plane of the sensor: (2, 2), after its place (2,) is taken off, m."""
+    return np.linalg.inv(mount.R_base_lidar()[:2, :2]).astype(np.float64), np.array((mount.x, mount.y))
