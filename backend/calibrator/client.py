@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from dataclasses import replace
 from datetime import UTC, datetime
 from threading import Lock
@@ -23,6 +24,7 @@ from navcore.transport.endpoints import Endpoints
 from navcore.transport.request import Requester
 
 ASK_MS, CHANGE_MS = 3000, 10_000
+NEWEST_S, AGAIN_S = 30.0, 0.2
 NONE = "No calibration is under way. Begin one on the Setup page."
 STARTING = "The calibration is starting …"
 DIED = "The calibration broke off and is starting again. Every picture that was taken is kept."
@@ -76,10 +78,14 @@ class Calibrator:
         return CalibrationDocument(setup=setup, state=reply.state, message="")
 
     def accept(self, by: str, camera: str) -> str:
-        """Keep the result and put it in use; its id. Raises ConflictError while a mission is under way."""
+        """Keep the result of all that was taken and put it in use; its id.
+
+        Waits while the newest pictures are worked out. Raises ConflictError while a mission is under way, RefusedError
+        with every reason, TransportError while the process is not there.
+        """
         self._robot.require_standing("put a calibration in use")
         request = CalibratorRequest(kind=CalibratorRequestKind.ACCEPT, by=by, camera=camera)
-        setup, reply = self._changed(request)
+        setup, reply = self._changed(request, wait_s=NEWEST_S)
         self.throw_away()
         if not setup.rehearsal:
             self._robot.load_calibration()
@@ -108,11 +114,15 @@ class Calibrator:
         """Begin to keep a process where one is wanted."""
         self._keeper.start()
 
-    def _changed(self, request: CalibratorRequest) -> tuple[SessionSetup, CalibratorReply]:
+    def _changed(self, request: CalibratorRequest, wait_s: float = 0.0) -> tuple[SessionSetup, CalibratorReply]:
         setup = self._folder.setup()
         if setup is None:
             raise NotFoundError(NONE)
+        patient_until = time.monotonic() + wait_s
         reply = self._ask(setup, request, CHANGE_MS)
+        while reply.reasons and reply.state.fitting and time.monotonic() < patient_until:
+            time.sleep(AGAIN_S)
+            reply = self._ask(setup, request, CHANGE_MS)
         if reply.reasons:
             raise RefusedError("This cannot be done.", reply.reasons)
         return setup, reply

@@ -128,6 +128,7 @@ class CalibratorWork:
         """Keep the result as a version and put it in use; its id. Raises CalibrationError."""
         outcome = self._fitter.outcome
         if outcome.revision != self._session.revision:
+            self._fitter.hurry()
             raise CalibrationError(("The result is still being worked out. Wait a moment, then accept it.",))
         if outcome.fitted is None:
             raise CalibrationError(("There is no result to accept yet.", *outcome.reasons))

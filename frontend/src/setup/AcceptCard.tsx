@@ -9,7 +9,7 @@ import { Card } from "../ui/Card";
 import { notifyDone, notifyError } from "../ui/notify";
 import css from "./setup.module.css";
 
-/** Keeps the result as a version, with who and of what, and puts it in use. */
+/** Keeps the result as a version, with who and of what, and puts it in use; the station waits for the newest pictures' part in it. */
 export function AcceptCard({ state }: { state: CalibrationState }) {
   const { setup, result } = state;
   const [by, setBy] = useLocalStorage({ key: "rowpilot.name", defaultValue: "", getInitialValueInEffect: false });
@@ -33,7 +33,7 @@ export function AcceptCard({ state }: { state: CalibrationState }) {
         <TextInput label="Camera's name or number" value={camera} maxLength={80} onChange={(event) => setCamera(event.currentTarget.value)} />
       </div>
       <p>Robot {setup.robot}. The date is kept with it.</p>
-      <Button size="lg" fullWidth disabled={state.fitting || !by.trim() || !camera.trim()} loading={accept.isPending} onClick={() => accept.mutate()}>
+      <Button size="lg" fullWidth disabled={!by.trim() || !camera.trim()} loading={accept.isPending} onClick={() => accept.mutate()}>
         {by.trim() ? "Accept the result" : "Give your name to accept"}
       </Button>
     </Card>
