@@ -100,6 +100,23 @@ def about(
 
 
 @njit(cache=True)
+def shared(along: Floats, line: Floats, sure: Floats, apart: float) -> Floats:
+    """(N,) how much each counts, 0 to 1, that stands `along` (N,) its `line` (N,) and is as `sure` (N,) a plant.
+
+    Plants of one line stand `apart` m from each other or more: of those nearer to each other one is the plant, and the
+    others are its stake or weeds. Together they count once.
+    """
+    out = np.empty(len(along))
+    for i in range(len(along)):
+        told = 0.0
+        for j in range(len(along)):
+            if line[j] == line[i] and abs(along[j] - along[i]) < apart:
+                told += sure[j]
+        out[i] = sure[i] / max(told, 1.0)
+    return out
+
+
+@njit(cache=True)
 def basis(x: Floats, side: Floats) -> Floats:
     """(N, 7) by what the middle's offset, turn and width, and offset and turn of the next line on the left and on the
     right, put a plant aside that stands `x` (N,) along the line `side` (N,) of `about`.

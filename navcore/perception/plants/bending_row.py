@@ -18,7 +18,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from navcore.perception.plants.bending_kernels import about, averaged, basis, bends
+from navcore.perception.plants.bending_kernels import about, averaged, basis, bends, shared
 
 Floats = NDArray[np.float64]
 
@@ -40,6 +40,7 @@ class BendingRowParams:
             those that the camera has seen as well.
         doubt: by so much smaller than told is the logarithm of the odds that an upright is a plant, >= 0: of those
             that no picture has shown as one, most that stand on a line of young trees are weeds.
+        apart: plants of one line stand so far from each other, >= 0; those nearer to each other count as one.
         span: the told direction and curvature are those of the circle through the middle here and so far behind and
             ahead, > 0.
         fewest: plants on each side; with fewer there is nothing to add to the corridor.
@@ -59,6 +60,7 @@ class BendingRowParams:
     next_turn_std: float = 0.01
     next_sure: float = 0.9
     doubt: float = 2.0
+    apart: float = 0.6
     span: float = 1.0
     fewest: int = 2
 
@@ -103,7 +105,7 @@ class BendingRow:
         if min(np.count_nonzero(side == 1.0), np.count_nonzero(side == -1.0)) < p.fewest:
             return None
         sure = told[:, 1] / (told[:, 1] + (1.0 - told[:, 1]) * math.exp(p.doubt))
-        weights = np.maximum(sure, 0.01) / (self._variances + told[:, 0])
+        weights = np.maximum(shared(x, side, sure, p.apart), 0.01) / (self._variances + told[:, 0])
         mean, covariance = averaged(
             basis(x, side), off, weights, bends(x, self._shifts, self._curve), self._asked, self._asked_bends,
             self._prior, self._chances,
