@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from navcore.control.target_line import TargetLine
 
 TURNING, LEANING = "curve ahead: turn rate is limited", "curve ahead: sideways pull"
+BENDING = "the row bends"
 PUSHED = "the ground pushes the robot round"
 
 
@@ -26,6 +27,8 @@ class SpeedRegulationParams:
     max_turn_rate: rad/s of command (paper A: 0.75); `turn_share` of it is planned for curves, the rest corrects.
     push_share: of it for what the ground adds to a curve, which comes unforeseen and leaves more to be corrected.
     max_lateral_acceleration: m/s^2; 0.5 keeps a load of crates standing.
+    scanned_lateral_acceleration: m/s^2 on a line through scanned plants, down to capture_speed: such a line is known to
+        centimetres, and in its bends haste would lose them.
     braking: m/s^2, comfortable; at most the vehicle's own.
     reaction: s from decision to the first braking (dead time and lag of the chassis).
     preview_step, preview: m, where and how far ahead the line's curvature is looked at.
@@ -40,6 +43,7 @@ class SpeedRegulationParams:
     turn_share: float = 0.75
     push_share: float = 0.5
     max_lateral_acceleration: float = 0.5
+    scanned_lateral_acceleration: float = 0.05
     braking: float = 0.4
     reaction: float = 0.26
     preview_step: float = 0.2
@@ -85,12 +89,21 @@ def curve_speed(curvature: float, turn_gain: float, params: SpeedRegulationParam
     return (turning, TURNING) if turning <= leaning else (leaning, LEANING)
 
 
+def bend_speed(curvature: float, params: SpeedRegulationParams) -> float:
+    """At which a bend (1/m) of a line through scanned plants is followed closely, m/s."""
+    close = math.sqrt(params.scanned_lateral_acceleration / max(abs(curvature), 1e-6))
+    return max(close, params.capture_speed)
+
+
 def curve_limit(target: TargetLine, turn_gain: float, params: SpeedRegulationParams) -> SpeedLimit:
     """The tightest curve within the preview, each reached by braking until there."""
     tightest_speed, why = math.inf, TURNING
     for k in range(math.ceil(params.preview / params.preview_step) + 1):
         ahead = k * params.preview_step
-        there, reason = curve_speed(target.curvature_ahead(ahead), turn_gain, params)
+        curvature = target.curvature_ahead(ahead)
+        there, reason = curve_speed(curvature, turn_gain, params)
+        if target.scanned and (close := bend_speed(curvature, params)) < there:
+            there, reason = close, BENDING
         speed = braking_speed(ahead, there, params)
         if speed < tightest_speed:
             tightest_speed, why = speed, reason

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ from navcore.control.speed_regulation import (
     SpeedLimit,
     SpeedRegulation,
     SpeedRegulationParams,
+    bend_speed,
     braking_speed,
     curve_speed,
     demand_limit,
@@ -66,6 +68,17 @@ def test_a_tight_curve_is_driven_no_faster_than_the_robot_can_turn() -> None:
     assert here < limit.speed < braking_speed(0.2, here, P)
     assert "curve" in limit.reason
     assert curve_speed(0.0, 0.5, P)[0] > 100.0
+
+
+def test_a_bend_between_scanned_plants_is_driven_slowly_and_a_road_that_bends_as_much_is_not() -> None:
+    road = on_a_circle(16.0)
+    row = replace(road, scanned=True)
+    assert settled(road, 2.0).speed == 2.0
+    limit = settled(row, 2.0)
+    assert limit.speed == pytest.approx(math.sqrt(16.0 * P.scanned_lateral_acceleration), rel=0.01)
+    assert "row bends" in limit.reason
+    assert settled(replace(STRAIGHT, scanned=True), 2.0).speed == 2.0
+    assert bend_speed(1.0, P) == P.capture_speed
 
 
 def test_where_the_ground_turns_the_robot_it_drives_only_as_fast_as_it_can_steer_against_that() -> None:
