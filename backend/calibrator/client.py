@@ -80,8 +80,8 @@ class Calibrator:
     def accept(self, by: str, camera: str) -> str:
         """Keep the result of all that was taken and put it in use; its id.
 
-        Waits while the newest pictures are worked out. Raises ConflictError while a mission is under way, RefusedError
-        with every reason, TransportError while the process is not there.
+        Waits while the newest pictures are worked out. Raises ConflictError while a mission is under way,
+        RefusedError with every reason, TransportError while the process is not there.
         """
         self._robot.require_standing("put a calibration in use")
         request = CalibratorRequest(kind=CalibratorRequestKind.ACCEPT, by=by, camera=camera)

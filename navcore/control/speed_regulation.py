@@ -27,8 +27,8 @@ class SpeedRegulationParams:
     max_turn_rate: rad/s of command (paper A: 0.75); `turn_share` of it is planned for curves, the rest corrects.
     push_share: of it for what the ground adds to a curve, which comes unforeseen and leaves more to be corrected.
     max_lateral_acceleration: m/s^2; 0.5 keeps a load of crates standing.
-    scanned_lateral_acceleration: m/s^2 on a line through scanned plants, down to capture_speed: such a line is known to
-        centimetres, and in its bends haste would lose them.
+    scanned_lateral_acceleration: m/s^2 on a line through scanned plants, down to capture_speed: such a line is known
+        to centimetres, and in its bends haste would lose them.
     braking: m/s^2, comfortable; at most the vehicle's own.
     reaction: s from decision to the first braking (dead time and lag of the chassis).
     preview_step, preview: m, where and how far ahead the line's curvature is looked at.

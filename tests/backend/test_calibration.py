@@ -111,7 +111,7 @@ def test_a_camera_is_calibrated_though_its_process_is_killed_in_the_middle(
         held.hold(number, until_true=taken(client, number + 1))
     assert client.get(f"{PATH}/pictures/001").content.startswith(b"\xff\xd8")
 
-    assert state(client)["fitting"]  # the last pose is not in the result yet: whoever accepts it now need not press twice
+    assert state(client)["fitting"]  # the last pose is not in the result yet: nobody need press twice for that
     answer = client.post(f"{PATH}/accept", json={"made_by": " Ada ", "camera": "left"})
     assert answer.status_code == 200, answer.text
     assert client.get(PATH).json()["setup"] is None

@@ -103,8 +103,8 @@ def about(
 def shared(along: Floats, line: Floats, sure: Floats, apart: float) -> Floats:
     """(N,) how much each counts, 0 to 1, that stands `along` (N,) its `line` (N,) and is as `sure` (N,) a plant.
 
-    Plants of one line stand `apart` m from each other or more: of those nearer to each other one is the plant, and the
-    others are its stake or weeds. Together they count once.
+    Plants of one line stand `apart` m from each other or more: of those nearer to each other one is the plant, and
+    the others are its stake or weeds. Together they count once.
     """
     out = np.empty(len(along))
     for i in range(len(along)):

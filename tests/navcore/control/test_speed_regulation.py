@@ -75,7 +75,7 @@ def test_a_bend_between_scanned_plants_is_driven_slowly_and_a_road_that_bends_as
     row = replace(road, scanned=True)
     assert settled(road, 2.0).speed == 2.0
     limit = settled(row, 2.0)
-    assert limit.speed == pytest.approx(math.sqrt(16.0 * P.scanned_lateral_acceleration), rel=0.01)
+    assert limit.speed == pytest.approx(math.sqrt(16.0 * P.scanned_lateral_acceleration), rel=0.03)
     assert "row bends" in limit.reason
     assert settled(replace(STRAIGHT, scanned=True), 2.0).speed == 2.0
     assert bend_speed(1.0, P) == P.capture_speed
