@@ -5,6 +5,7 @@ from __future__ import annotations
 import typer
 
 from navcore.cli import (
+    bench_fusion,
     bench_localization,
     bench_loop,
     bench_tracking,
@@ -33,6 +34,7 @@ from navcore.cli.decode import decode_app
 app = typer.Typer(
     name="rowpilot", help="Onboard operator station for orchard and vineyard robots.", no_args_is_help=True
 )
+bench_fusion.register(bench_app)
 bench_localization.register(bench_app)
 bench_loop.register(bench_app)
 bench_tracking.register(bench_app)

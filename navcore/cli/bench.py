@@ -110,47 +110,6 @@ def bench_rows(
     typer.echo(_report(figures, *made) if as_json else _lines(figures, *made))
 
 
-@bench_app.command("fusion")
-def bench_fusion(
-    quick: Annotated[
-        bool, typer.Option("--quick", help="Two drives a chain, boxes from the truth (segmentation: pictures).")
-    ] = False,
-    as_json: Annotated[bool, typer.Option("--json", help="A JSON list, one row a figure.")] = False,
-    resume: Annotated[
-        Path | None, typer.Option(metavar="FOLDER", help="Keep the drives here, and go on with what is here.")
-    ] = None,
-    processes: Annotated[int, typer.Option(min=1, max=64, help="Drives side by side.")] = 2,
-) -> None:
-    """Camera and 2D LiDAR as in paper B, published and ours: clusters, line fits, trees, drives in its segments."""
-    import tempfile
-    from dataclasses import replace
-
-    from navcore.bench.fusion.calibration import QUICK, CalibrationBenchParams
-    from navcore.bench.fusion.calibration import run_bench as run_calibration
-    from navcore.bench.fusion.clusters import cluster_figures
-    from navcore.bench.fusion.figures import drive_figures
-    from navcore.bench.fusion.fusion import QUICK_DRIVES, FusionBenchParams, drive_all
-    from navcore.bench.fusion.line_fit import line_fit_figures
-    from navcore.bench.fusion.segment_cases import segment_cases
-    from navcore.bench.mission.cases import EyeKind
-    from navcore.bench.provenance import commit, machine
-
-    def tell(line: str) -> None:
-        typer.echo(line, err=True)
-
-    params = FusionBenchParams(processes=processes)
-    if quick:
-        params = replace(params, drives=replace(QUICK_DRIVES, eye=EyeKind.TRUTH), scans=60, fits=200)
-    folder = resume or Path(tempfile.mkdtemp(prefix="rowpilot-fusion-"))
-    tell(f"Drives are kept in {folder}")
-    calibrated = run_calibration(QUICK if quick else CalibrationBenchParams(), tell)
-    parts = (*calibrated, *cluster_figures(rounds=params.scans), *line_fit_figures(rounds=params.fits))
-    cases = segment_cases(params.drives)
-    drives = drive_all(cases, folder, params.processes, tell)
-    figures, made = (*parts, *drive_figures(drives)), (commit(), machine())
-    typer.echo(_report(figures, *made) if as_json else _lines(figures, *made))
-
-
 @bench_app.command("ndt")
 def bench_ndt(
     quick: Annotated[bool, typer.Option("--quick", help="One small block, ten scans a season: 3 minutes.")] = False,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib
 import importlib.util
+import sys
 from collections.abc import Callable
 from functools import partial
 
@@ -27,6 +28,7 @@ SCIKIT, OPEN3D, OURS = "scikit-learn", "Open3D", "DBSCAN in scan order"
 TRUNK_RAYS = "agreement with the true trunks, rays that met one"
 TOLD_RAYS = "agreement with the true trunks, rays that met one or are in a cluster"
 _WANTED_MS, _WANTED_ARI = 0.25, 0.99
+_DEBIAN = "/usr/lib/python3/dist-packages"
 
 
 def cluster_figures(
@@ -61,13 +63,25 @@ def _ours(points: Floats, params: DbscanParams) -> Ints:
 
 
 def _libraries(params: DbscanParams) -> dict[str, Clustering]:
-    """Those that are installed."""
+    """Those that are installed; Open3D in the environment, or as Debian's package python3-open3d."""
     found: dict[str, Clustering] = {}
     if importlib.util.find_spec("sklearn"):
         found[SCIKIT] = partial(_scikit_learn, params=params)
-    if importlib.util.find_spec("open3d"):
+    if _has_open3d():
         found[OPEN3D] = partial(_open3d, params=params)
     return found
+
+
+def _has_open3d() -> bool:
+    if importlib.util.find_spec("open3d"):
+        return True
+    sys.path.append(_DEBIAN)  # last: all else is the environment's own
+    try:
+        importlib.import_module("open3d")
+    except ImportError:
+        sys.path.remove(_DEBIAN)
+        return False
+    return True
 
 
 def _scikit_learn(points: Floats, params: DbscanParams) -> Ints:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -34,6 +35,9 @@ _POSE_S, _SETTLE_S, _DRIVE_S = 30.0, 2.0, 240.0
 _RESTING = (RunState.FINISHED, RunState.STOPPED)
 
 
+NewEye = Callable[[SegmentCase, World, RobotConfig], Eye]
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SegmentResult:
     """One driven segment.
@@ -57,14 +61,14 @@ class SegmentResult:
     published_ms: float | None = None
 
 
-def drive_segment(case: SegmentCase) -> SegmentResult:
-    """From the headland through the segment to its far end."""
+def drive_segment(case: SegmentCase, new_eye: NewEye | None = None) -> SegmentResult:
+    """From the headland through the segment to its far end, by the eye of the case's chain or by `new_eye`'s."""
     young, config = case.young(), replace(RobotConfig(), vehicle=VEHICLE)
     params = WorldParams(
         seed=young.seed, orchard=young.orchard, terrain=young.terrain, lidar2d=Lidar2dParams(), map_error=NO_MAP_ERROR
     )  # fmt: skip
     world = World(young.site, config.vehicle_params(), params, start_ns=_START_NS)
-    eye = _eye(case, world, config)
+    eye = (new_eye or _eye)(case, world, config)
     lockstep = Lockstep(world, config.new_navigator(young.site.datum), eye)
     poses: list[tuple[float, float]] = []
     lockstep.listeners.append(lambda tick: poses.append((tick.truth.x, tick.truth.y)))

@@ -105,9 +105,17 @@ class OurEye:
     def look(self, truth: SimTruth, request: CameraRequest, scans: tuple[LidarScan, ...] = ()) -> CameraView:
         """See `lockstep.Eye`."""
         image = self._pictures.take(truth, request.camera)
-        self._told.objects = self._pictures.detector(request.camera).detect(image)
+        objects = self._pictures.detector(request.camera).detect(image)
+        return self.see(image, objects, truth.stamp_ns, request, scans)
+
+    def see(
+        self, image: Image, objects: tuple[DetectedObject, ...], stamp_ns: int, request: CameraRequest,
+        scans: tuple[LidarScan, ...],
+    ) -> CameraView:  # fmt: skip
+        """What these boxes of the picture and these scans show."""
+        self._told.objects = objects
         began = time.perf_counter()
-        view = self._eye.look(image, truth.stamp_ns, request, scans=scans)
+        view = self._eye.look(image, stamp_ns, request, scans=scans)
         if view.row.valid and view.row.source is RowSource.FUSED:
             self.seconds.append(time.perf_counter() - began)
         return view

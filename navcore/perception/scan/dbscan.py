@@ -63,7 +63,7 @@ def centroids(points: Floats, labels: Ints) -> Floats:
 
 def _pairs(xy: Floats, eps: float, centre: tuple[float, float] | None) -> kernels.Pairs:
     if centre is not None:
-        turned, far, ordered = kernels.bearings(xy, *centre, eps)
+        rays, turned, far, ordered = kernels.bearings(xy, *centre, eps)
         if ordered:
-            return kernels.scan_pairs(xy, turned, far, eps)
+            return kernels.scan_pairs(xy, rays, turned, far, eps)
     return kernels.grid_pairs(xy, eps)

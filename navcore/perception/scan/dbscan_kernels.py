@@ -17,63 +17,76 @@ _SLACK = 1e-9
 
 
 @njit(cache=True)
-def bearings(points: Floats, centre_x: float, centre_y: float, nearest: float) -> tuple[Floats, Floats, bool]:
-    """Bearings (N,) from the centre, unwound to rise, and distances (N,); whether they are of one turn at most.
+def bearings(points: Floats, centre_x: float, centre_y: float, nearest: float) -> tuple[Floats, Floats, Floats, bool]:
+    """Rays (2, N) from the centre, their bearings (N,), unwound to rise, and lengths (N,); whether they are of one
+    turn at most.
 
-    A scan that turns to the right falls and is given negated. Points not further than `nearest` from the centre tell
+    A scan that turns to the right falls and is given mirrored. Points not further than `nearest` from the centre tell
     no window: then False, as for bearings that go to and fro.
     """
     n = len(points)
-    turned, far = np.empty(n), np.empty(n)
+    rays, turned, far = np.empty((2, n)), np.empty(n), np.empty(n)
     for i in range(n):
         x, y = points[i, 0] - centre_x, points[i, 1] - centre_y
+        rays[0, i], rays[1, i] = x, y
         far[i] = math.sqrt(x * x + y * y)
         turned[i] = math.atan2(y, x)
         if not far[i] > nearest * (1.0 + _SLACK):
-            return turned, far, False
-    return turned, far, _unwind(turned)
+            return rays, turned, far, False
+    if _turns_back(turned):
+        turned[:], rays[1] = -turned, -rays[1]
+    return rays, turned, far, _unwind(turned)
 
 
 @njit(cache=True)
 def _turn(angle: float) -> float:
-    return angle - math.tau * round(angle / math.tau)
+    """From one bearing to another, the short way; `angle` is less than a whole turn."""
+    if angle > math.pi:
+        return angle - math.tau
+    return angle + math.tau if angle < -math.pi else angle
+
+
+@njit(cache=True)
+def _turns_back(turned: Floats) -> bool:
+    """Whether bearings fall on the whole."""
+    back = 0.0
+    for i in range(1, len(turned)):
+        back += _turn(turned[i] - turned[i - 1])
+    return back < 0.0
 
 
 @njit(cache=True)
 def _unwind(turned: Floats) -> bool:
     """Make bearings of one turn rise; False if they do not go one way, or further than once around."""
-    back, n = 0.0, len(turned)
+    n = len(turned)
+    last = turned[0] if n else 0.0
     for i in range(1, n):
-        back += _turn(turned[i] - turned[i - 1])
-    if back < 0.0:
-        turned[:] = -turned
-    for i in range(1, n):
-        step = _turn(turned[i] - turned[i - 1])
+        step = _turn(turned[i] - last)
         if step < 0.0:
             return False
-        turned[i] = turned[i - 1] + step
+        last, turned[i] = turned[i], turned[i - 1] + step
     return n == 0 or turned[n - 1] - turned[0] < math.tau
 
 
 @njit(cache=True)
-def scan_pairs(points: Floats, turned: Floats, far: Floats, eps: float) -> Pairs:
-    """Pairs (M, 2) of points within eps, for bearings that rise.
+def scan_pairs(points: Floats, rays: Floats, turned: Floats, far: Floats, eps: float) -> Pairs:
+    """Pairs (M, 2) of points within eps, for rays whose bearings rise.
 
-    Seen from the centre, a neighbour of a point at distance r lies within asin(eps / r) of its bearing. After the
-    last ray comes the first one again.
+    Seen from the centre, which is further away than eps, a neighbour of a point at distance r lies within asin(eps / r)
+    of its bearing. After the last ray comes the first one again.
     """
     n, count, x, y = len(points), 0, points[:, 0].copy(), points[:, 1].copy()
-    pairs = np.empty((16 * n, 2), np.int32)
+    u, v = rays[0], rays[1]
+    pairs, widest = np.empty((16 * n, 2), np.int32), (eps * (1.0 + _SLACK)) * far
     for i in range(n):
         pairs = _roomy(pairs, count, n)
-        reach = turned[i] + math.asin(min(1.0, eps / far[i])) * (1.0 + _SLACK) + _SLACK
         j = i + 1
-        while j < n and turned[j] <= reach:
+        while j < n and u[i] * v[j] - v[i] * u[j] <= widest[j]:
             count += _pair(pairs, count, x, y, i, j, eps)
             j += 1
         if j == n:
-            j = 0
-            while j < i and turned[j] + math.tau <= reach:
+            j, quarter = 0, turned[i] + 0.5 * math.pi - math.tau
+            while j < i and turned[j] <= quarter and u[i] * v[j] - v[i] * u[j] <= widest[j]:
                 count += _pair(pairs, count, x, y, i, j, eps)
                 j += 1
     return pairs[:count]

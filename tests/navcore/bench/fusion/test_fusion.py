@@ -7,13 +7,16 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from typer.testing import CliRunner
 
 from navcore.bench.fusion.figures import drive_figures, tracking
 from navcore.bench.fusion.fusion import DRIVES, QUICK_DRIVES, drive_all, read_drives
+from navcore.bench.fusion.look_time import look_time_figures
 from navcore.bench.fusion.segment_cases import Chain, SegmentCase, SegmentCaseParams, segment_cases
 from navcore.bench.fusion.segment_drive import STATIONS, SegmentResult
 from navcore.bench.fusion.tree_matches import Tally, known_tree
 from navcore.bench.mission.cases import EyeKind
+from navcore.cli import bench_app
 from navcore.errors import ConfigError
 from navcore.sim.camera_light import LightName
 from navcore.sim.young_orchard import Segment
@@ -87,7 +90,7 @@ def test_a_segment_is_driven_close_to_its_middle_and_kept(tmp_path: Path) -> Non
     assert driven.ours.found > driven.published.found
     assert driven.ours.found / driven.ours.trees > 0.75
     told = {f.figure: f for f in drive_figures((driven,))}
-    look = told["from scan and boxes to the row, one thread, median, ours"]
+    look = told["the same between the drives' pictures, median of the drives, ours"]
     assert (look.value, look.baseline) == (driven.look_ms, driven.published_ms)
     assert 0.0 < (driven.look_ms or 0.0) < 1000.0  # ms
     again = drive_all((CASE,), tmp_path, 1, lambda line: pytest.fail("driven twice"))
@@ -114,3 +117,16 @@ def test_the_segmentation_stands_beside_what_paper_b_published_of_it() -> None:
     mean, within = (told[f"lateral {name}, segmentation + skeleton"] for name in ("mean", "within 10 cm"))
     assert mean.value == pytest.approx(0.06)
     assert (mean.paper, within.value, within.paper) == (0.069, 1.0, 0.870)
+
+
+def test_the_looks_of_a_drive_are_timed_again_when_it_is_over() -> None:
+    (figure,) = look_time_figures(CASE)
+    assert figure.n > 100
+    assert 0.0 < (figure.value or 0.0) < 1000.0  # ms
+    assert 0.0 < (figure.baseline or 0.0) < 1000.0  # ms
+
+
+def test_a_chain_that_nobody_knows_is_refused_with_those_there_are() -> None:
+    told = CliRunner().invoke(bench_app, ["fusion", "--chain", "theirs"])
+    assert told.exit_code == 2
+    assert "true trunks" in " ".join(told.output.split())

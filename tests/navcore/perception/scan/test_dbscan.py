@@ -47,12 +47,15 @@ def test_points_in_any_order_make_scikit_learns_clusters(cells: Ints, eps: float
 @given(
     hnp.arrays(np.float64, st.integers(1, 90), elements=st.floats(0.3, 3.0)),
     st.floats(-7.0, 7.0), st.sampled_from([-2.0, 1.5, 2.0]), st.integers(1, 5),
+    st.sampled_from([(0.0, 0.0), (0.3, -0.1), (5.0, 40.0)]),
 )  # fmt: skip
-@settings(max_examples=100, deadline=None)
-def test_a_scan_makes_scikit_learns_clusters(distances: Floats, start: float, turns: float, min_points: int) -> None:
-    """Full turns wrap around; scans to the left and to the right."""
-    points = turn(distances, start, turns * math.pi)
-    found = dbscan(points, eps=0.2517, min_points=min_points, centre=(0.0, 0.0))
+@settings(max_examples=200, deadline=None)
+def test_a_scan_makes_scikit_learns_clusters(
+    distances: Floats, start: float, turns: float, min_points: int, centre: tuple[float, float]
+) -> None:
+    """Full turns wrap around; scans to the left and to the right, from wherever the LiDAR stands."""
+    points = turn(distances, start, turns * math.pi) + centre
+    found = dbscan(points, eps=0.2517, min_points=min_points, centre=centre)
     assert found.tolist() == scikit_learn(points, 0.2517, min_points).tolist()
 
 
@@ -66,8 +69,8 @@ def test_a_centre_never_changes_the_clusters(cells: Ints, centre: tuple[float, f
 
 def test_a_scan_is_compared_along_its_own_order() -> None:
     points = turn(np.full(400, 2.0), 0.4, 2.0 * math.pi)
-    _, _, ordered = kernels.bearings(points, 0.0, 0.0, EPS_M)
-    _, _, shuffled = kernels.bearings(np.random.default_rng(1).permutation(points), 0.0, 0.0, EPS_M)
+    *_, ordered = kernels.bearings(points, 0.0, 0.0, EPS_M)
+    *_, shuffled = kernels.bearings(np.random.default_rng(1).permutation(points), 0.0, 0.0, EPS_M)
     assert ordered
     assert not shuffled
 
@@ -76,9 +79,9 @@ def test_a_trunk_behind_the_last_ray_is_one() -> None:
     """The scan begins in the middle of a trunk."""
     angles = np.radians([0.0, 0.5, 120.0, 240.0, 359.0, 359.5])
     points = 2.0 * np.column_stack((np.cos(angles), np.sin(angles)))
-    turned, far, ordered = kernels.bearings(points, 0.0, 0.0, EPS_M)
+    rays, turned, far, ordered = kernels.bearings(points, 0.0, 0.0, EPS_M)
     assert ordered
-    assert len(kernels.scan_pairs(points, turned, far, EPS_M)) == 6
+    assert len(kernels.scan_pairs(points, rays, turned, far, EPS_M)) == 6
     assert dbscan(points, eps=EPS_M, min_points=3, centre=(0.0, 0.0)).tolist() == [0, 0, -1, -1, 0, 0]
 
 
