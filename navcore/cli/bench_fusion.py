@@ -12,6 +12,8 @@ from navcore.cli.figure_lines import lines, report
 if TYPE_CHECKING:
     from navcore.bench.fusion.segment_cases import Chain
 
+BAD_INPUT = 2
+
 
 def register(bench_app: typer.Typer) -> None:
     """Add the verb."""
@@ -29,9 +31,7 @@ def bench_fusion(
     processes: Annotated[int, typer.Option(min=1, max=64, help="Drives side by side.")] = 2,
     chain: Annotated[
         list[str] | None,
-        typer.Option(
-            metavar="NAME", help='Only the drives of this chain, as "ours" or "true trunks"; again for more.'
-        ),
+        typer.Option(metavar="NAME", help='Drives of this chain alone, as "ours" or "true trunks"; again for more.'),
     ] = None,
 ) -> None:
     """Camera and 2D LiDAR as in paper B, published and ours: clusters, line fits, trees, drives in its segments."""

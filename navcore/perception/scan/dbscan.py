@@ -45,11 +45,11 @@ def dbscan(points: Floats, *, eps: float, min_points: int, centre: tuple[float, 
     once at most, are compared along the scan, all others by a grid. Ours reads as scikit-learn's, labels included.
     """
     xy = np.ascontiguousarray(points, dtype=np.float64).reshape(-1, 2)
-    if not np.abs(xy).max(initial=0.0) <= _MOST_CELLS * eps:
+    if not kernels.within(xy, _MOST_CELLS * eps):
         raise NotFiniteError("Points to be clustered must be numbers: leave rays without a return out.")
     if not (eps > 0.0 and math.isfinite(eps)) or min_points < 1:
         raise ConfigError(f"DBSCAN needs eps above 0 m and min_points of 1 or more, not {eps} and {min_points}.")
-    return np.asarray(kernels.labels(len(xy), _pairs(xy, eps, centre), min_points))
+    return np.asarray(kernels.clusters(xy, eps, min_points, centre or (0.0, 0.0), centre is not None))
 
 
 def centroids(points: Floats, labels: Ints) -> Floats:
@@ -59,11 +59,3 @@ def centroids(points: Floats, labels: Ints) -> Floats:
         return np.empty((0, 2))
     sums = [np.bincount(labels[labels >= 0], weights=points[labels >= 0, axis]) for axis in (0, 1)]
     return np.asarray(np.column_stack(sums) / count[:, None])
-
-
-def _pairs(xy: Floats, eps: float, centre: tuple[float, float] | None) -> kernels.Pairs:
-    if centre is not None:
-        rays, turned, far, ordered = kernels.bearings(xy, *centre, eps)
-        if ordered:
-            return kernels.scan_pairs(xy, rays, turned, far, eps)
-    return kernels.grid_pairs(xy, eps)

@@ -17,6 +17,25 @@ _SLACK = 1e-9
 
 
 @njit(cache=True)
+def within(points: Floats, most: float) -> bool:
+    """Whether all coordinates (N, 2) are numbers that are not further from 0 than `most`."""
+    for x, y in points:
+        if not (abs(x) <= most and abs(y) <= most):
+            return False
+    return True
+
+
+@njit(cache=True)
+def clusters(points: Floats, eps: float, min_points: int, centre: tuple[float, float], has_centre: bool) -> Ints:
+    """As `dbscan` of points that are `within` reason; in one call, for a scan is clustered in little more."""
+    if has_centre:
+        rays, turned, far, ordered = bearings(points, centre[0], centre[1], eps)
+        if ordered:
+            return labels(len(points), scan_pairs(points, rays, turned, far, eps), min_points)
+    return labels(len(points), grid_pairs(points, eps), min_points)
+
+
+@njit(cache=True)
 def bearings(points: Floats, centre_x: float, centre_y: float, nearest: float) -> tuple[Floats, Floats, Floats, bool]:
     """Rays (2, N) from the centre, their bearings (N,), unwound to rise, and lengths (N,); whether they are of one
     turn at most.
@@ -72,8 +91,8 @@ def _unwind(turned: Floats) -> bool:
 def scan_pairs(points: Floats, rays: Floats, turned: Floats, far: Floats, eps: float) -> Pairs:
     """Pairs (M, 2) of points within eps, for rays whose bearings rise.
 
-    Seen from the centre, which is further away than eps, a neighbour of a point at distance r lies within asin(eps / r)
-    of its bearing. After the last ray comes the first one again.
+    Seen from the centre, which is further away than eps, a neighbour of a point at distance r lies within
+    asin(eps / r) of its bearing. After the last ray comes the first one again.
     """
     n, count, x, y = len(points), 0, points[:, 0].copy(), points[:, 1].copy()
     u, v = rays[0], rays[1]

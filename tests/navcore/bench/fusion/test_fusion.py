@@ -16,7 +16,7 @@ from navcore.bench.fusion.segment_cases import Chain, SegmentCase, SegmentCasePa
 from navcore.bench.fusion.segment_drive import STATIONS, SegmentResult
 from navcore.bench.fusion.tree_matches import Tally, known_tree
 from navcore.bench.mission.cases import EyeKind
-from navcore.cli import bench_app
+from navcore.cli import app
 from navcore.errors import ConfigError
 from navcore.sim.camera_light import LightName
 from navcore.sim.young_orchard import Segment
