@@ -19,10 +19,10 @@ _SLACK = 1e-9
 @njit(cache=True)
 def within(points: Floats, most: float) -> bool:
     """Whether all coordinates (N, 2) are numbers that are not further from 0 than `most`."""
+    inside = True
     for x, y in points:
-        if not (abs(x) <= most and abs(y) <= most):
-            return False
-    return True
+        inside = inside and abs(x) <= most and abs(y) <= most
+    return inside
 
 
 @njit(cache=True)

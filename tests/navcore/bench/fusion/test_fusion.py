@@ -127,6 +127,7 @@ def test_the_looks_of_a_drive_are_timed_again_when_it_is_over() -> None:
 
 
 def test_a_chain_that_nobody_knows_is_refused_with_those_there_are() -> None:
-    told = CliRunner().invoke(bench_app, ["fusion", "--chain", "theirs"])
+    told = CliRunner().invoke(app, ["bench", "fusion", "--chain", "theirs"])
     assert told.exit_code == 2
-    assert "true trunks" in " ".join(told.output.split())
+    assert "There is no chain theirs" in told.output
+    assert '"true trunks"' in told.output
