@@ -17,6 +17,8 @@ Floats = NDArray[np.float64]
 
 # Of a pixel, and of a metre.
 TENTHS, HUNDREDTHS = 10.0, 100.0
+# Ends of rays that follow each other closer than that would be drawn on one another, m and pixels.
+APART, APART_PX = 0.03, 1.0
 
 
 @njit(cache=True)
@@ -59,19 +61,22 @@ def image_line(offset: float, heading: float, camera: Camera) -> tuple[float, fl
 def scan(
     ends: Floats, pose: tuple[float, float, float], camera: Camera, width_px: int, height_px: int
 ) -> tuple[Floats, Floats]:
-    """A scan's ends (N, 3), m, of a frame at `pose` (x, y, yaw): those within the picture as pixels (K, 2), and all
-    from above (N, 2), m.
+    """A scan's ends (N, 3), m, of a frame at `pose` (x, y, yaw): those within the picture as pixels (K, 2), and from
+    above (M, 2), m. Of ends that would lie on one another, `APART` and `APART_PX`, the first one is drawn.
     """
     c, s = math.cos(pose[2]), math.sin(pose[2])
-    pixels, above, k = np.empty((len(ends), 2)), np.empty((len(ends), 2)), 0
+    pixels, above = np.empty((len(ends), 2)), np.empty((len(ends), 2))
+    k, m, last, last_px = 0, 0, (math.inf, math.inf), (math.inf, math.inf)
     for i in range(len(ends)):
         x, y = pose[0] + c * ends[i, 0] - s * ends[i, 1], pose[1] + s * ends[i, 0] + c * ends[i, 1]
-        above[i] = rounded(x, HUNDREDTHS), rounded(y, HUNDREDTHS)
+        if math.hypot(x - last[0], y - last[1]) >= APART:
+            above[m], last = (rounded(x, HUNDREDTHS), rounded(y, HUNDREDTHS)), (x, y)
+            m += 1
         u, v = pixel(x, y, ends[i, 2], camera)
-        if 0.0 <= u < width_px and 0.0 <= v < height_px:
-            pixels[k] = rounded(u, TENTHS), rounded(v, TENTHS)
+        if 0.0 <= u < width_px and 0.0 <= v < height_px and math.hypot(u - last_px[0], v - last_px[1]) >= APART_PX:
+            pixels[k], last_px = (rounded(u, TENTHS), rounded(v, TENTHS)), (u, v)
             k += 1
-    return pixels[:k], above
+    return pixels[:k], above[:m]
 
 
 @njit(cache=True)

@@ -59,6 +59,16 @@ def test_a_scans_ends_are_drawn_where_they_lie_now_and_only_within_the_picture(s
     assert np.round(pixels, 1) == pytest.approx(pixels, abs=1e-12)
 
 
+def test_of_a_wall_close_by_no_two_ends_are_drawn_on_one_another_and_none_is_missed() -> None:
+    camera = camera_of(np.random.default_rng(1))
+    wall = np.column_stack((np.full(1601, 2.0), np.linspace(-1.0, 1.0, 1601), np.full(1601, 0.55)))
+    pixels, above = scan(wall, (0.0, 0.0, 0.0), camera.compiled(), camera.width_px, camera.height_px)
+    assert 55 <= len(above) <= 67  # 2 m
+    assert np.abs(wall[:, 1, None] - above[:, 1]).min(axis=1).max() < 0.03 + 0.005  # m
+    assert len(pixels) > 100
+    assert np.hypot(*np.diff(pixels, axis=0).T).min() > 1.0 - 0.15  # pixels, told in tenths
+
+
 @settings(deadline=None)
 @given(seeds)
 def test_image_rows_show_ground_as_far_ahead_as_the_camera_says(seed: int) -> None:
