@@ -48,7 +48,9 @@ class MountWatch:
 
     def see(self, view: CameraView) -> MountAgreement | None:
         """What is known after a picture that shows trunks anew; None where it shows none."""
-        new = [plant for plant in view.plants if self._to_be_asked(plant, view.stamp_ns)]
+        self._seen_again(view)
+        boxed = (plant for plant in view.plants if plant.object is not None)
+        new = [plant for plant in boxed if self._to_be_asked(plant, view.stamp_ns)]
         for plant in new:
             self._check.add(self._pair(plant, view.bearings[plant.object or 0]))
         if not new:
@@ -56,13 +58,21 @@ class MountWatch:
         state = self._check.state()
         return MountAgreement(trunks=state.pairs, yaw=state.yaw, yaw_std=state.yaw_std, moved=state.moved)
 
+    def _seen_again(self, view: CameraView) -> None:
+        """Trunks that were asked are the same ones for as long as they are seen."""
+        for number in self._asked.keys() & {plant.number for plant in view.plants}:
+            if self._is_known(number, view.stamp_ns):
+                self._asked[number] = view.stamp_ns
+
+    def _is_known(self, number: int, stamp_ns: int) -> bool:
+        since = self._asked.get(number)
+        return since is not None and stamp_ns - since < self._params.again_s * 1e9
+
     def _to_be_asked(self, plant: ScannedPlant, stamp_ns: int) -> bool:
-        p, since = self._params, self._asked.get(plant.number)
-        if since is not None and stamp_ns - since < p.again_s * 1e9:
-            self._asked[plant.number] = stamp_ns
+        p = self._params
+        if self._is_known(plant.number, stamp_ns) or plant.sureness < p.sure:
             return False
-        good = plant.object is not None and plant.sureness >= p.sure
-        if not good or not p.nearest <= self._distance(plant) <= p.furthest:
+        if not p.nearest <= self._distance(plant) <= p.furthest:
             return False
         self._asked[plant.number] = stamp_ns
         return True
