@@ -32,9 +32,7 @@ class SpeedRegulationParams:
     braking: m/s^2, comfortable; at most the vehicle's own.
     reaction: s from decision to the first braking (dead time and lag of the chassis).
     preview_step, preview: m, where and how far ahead the line's curvature is looked at.
-    slow_deviation, stop_deviation: m of lateral error (control validator and hazard table: slow 0.3, stop 0.5).
-    capture_speed: m/s while the line is further away than slow_deviation.
-    slow_std, stop_std: m, 1-sigma of the position across the line at which to slow and to stop.
+    slow_deviation, capture_speed: m/s while the line is further away than that, m.
     crawl: m/s, the least speed that is asked for while driving on.
     arrival: m before the end of the line that counts as there.
     """
@@ -49,10 +47,7 @@ class SpeedRegulationParams:
     preview_step: float = 0.2
     preview: float = 2.0
     slow_deviation: float = 0.3
-    stop_deviation: float = 0.5
     capture_speed: float = 0.5
-    slow_std: float = 0.10
-    stop_std: float = 0.50
     crawl: float = 0.10
     arrival: float = 0.05
 
@@ -127,36 +122,22 @@ def demand_limit(demand: float, speed: float, params: SpeedRegulationParams) -> 
     return SpeedLimit(speed=slower if demand > 1.0 else math.inf, reason="steering is at its limit")
 
 
-def end_limit(remaining: float | None, params: SpeedRegulationParams, end_speed: float = 0.0) -> SpeedLimit:
-    """Braking for the end of the line; `end_speed` where the path goes on with that speed."""
+def end_limit(remaining: float | None, params: SpeedRegulationParams) -> SpeedLimit:
+    """Braking for the end of the line."""
     if remaining is None:
         return SpeedLimit(speed=math.inf, reason="no end in sight")
-    if remaining <= params.arrival and end_speed <= 0.0:
+    if remaining <= params.arrival:
         return SpeedLimit(speed=0.0, reason="end of the line reached")
-    speed = braking_speed(remaining, end_speed, params)
+    speed = braking_speed(remaining, 0.0, params)
     return SpeedLimit(speed=max(speed, params.crawl), reason=f"end of the line in {remaining:.1f} m")
 
 
-def deviation_limit(lateral_error: float, capturing: bool, params: SpeedRegulationParams) -> SpeedLimit:
-    """Slow when off the line, stop when far off; `capturing` (still getting onto it) only slows."""
+def deviation_limit(lateral_error: float, params: SpeedRegulationParams) -> SpeedLimit:
+    """Slow while the line is far away."""
     off = abs(lateral_error)
-    if off > params.stop_deviation and not capturing:
-        return SpeedLimit(speed=0.0, reason=f"{off:.2f} m off the line: stop")
     if off > params.slow_deviation:
         return SpeedLimit(speed=params.capture_speed, reason=f"{off:.2f} m off the line")
     return SpeedLimit(speed=math.inf, reason="on the line")
-
-
-def quality_limit(lateral_std: float | None, wanted: float, params: SpeedRegulationParams) -> SpeedLimit:
-    """Slower the less is known across the line: full speed up to slow_std, nothing from stop_std on."""
-    if lateral_std is None or not math.isfinite(lateral_std):
-        return SpeedLimit(speed=0.0, reason="position not known")
-    if lateral_std >= params.stop_std:
-        return SpeedLimit(speed=0.0, reason=f"position known only to {lateral_std:.2f} m: stop")
-    if lateral_std <= params.slow_std:
-        return SpeedLimit(speed=math.inf, reason="position well known")
-    share = (params.stop_std - lateral_std) / (params.stop_std - params.slow_std)
-    return SpeedLimit(speed=max(share * wanted, params.crawl), reason=f"position known to {lateral_std:.2f} m only")
 
 
 class SpeedRegulation:
@@ -173,16 +154,13 @@ class SpeedRegulation:
         self._speed, self._last_ns = speed, -1
 
     def regulate(
-        self, target: TargetLine, *, wanted: float, now_ns: int, turn_gain: float, lateral_std: float | None,
-        capturing: bool = False, end_speed: float = 0.0, push: float = 0.0, demand: float = 0.0,
-        others: tuple[SpeedLimit, ...] = (),
+        self, target: TargetLine, *, wanted: float, now_ns: int, turn_gain: float, push: float = 0.0,
+        demand: float = 0.0, others: tuple[SpeedLimit, ...] = (),
     ) -> SpeedLimit:  # fmt: skip
         """Speed for this tick with the tightest cause.
 
         Args:
             turn_gain: share of a commanded turn rate that reaches the ground.
-            lateral_std: 1-sigma of the position across the line, m, None if not known (then the answer is 0).
-            end_speed: speed at which the line's end may be passed.
             push: curvature that the ground adds to what is steered, 1/m, + left.
             demand: as in `Steering`, of the last tick.
             others: limits found elsewhere (zones, events).
@@ -193,9 +171,8 @@ class SpeedRegulation:
             curve_limit(target, turn_gain, p),
             push_limit(target.curvature_ahead(0.0), push, turn_gain, p),
             demand_limit(demand, self._speed, p),
-            end_limit(target.remaining, p, end_speed),
-            deviation_limit(target.lateral_error, capturing, p),
-            quality_limit(lateral_std, wanted, p),
+            end_limit(target.remaining, p),
+            deviation_limit(target.lateral_error, p),
             *others,
         ))  # fmt: skip
         return self._rising_slowly(limit, now_ns)

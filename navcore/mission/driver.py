@@ -175,8 +175,8 @@ class Driver:
             SpeedLimit(speed=self.vehicle.max_speed, reason="vehicle"),
         ))  # fmt: skip
         return self.regulation.regulate(
-            target, wanted=wanted.speed, now_ns=now_ns, turn_gain=self.controller.turn_gain, lateral_std=0.0,
-            capturing=True, push=self.controller.slip, demand=self._demand, others=limits,
+            target, wanted=wanted.speed, now_ns=now_ns, turn_gain=self.controller.turn_gain,
+            push=self.controller.slip, demand=self._demand, others=limits,
         )  # fmt: skip
 
     def _steer(self, target: TargetLine, pilot: Pilot, motion: Motion, speed: float, now_ns: int) -> Steering:

@@ -94,7 +94,7 @@ def _footprints(way: Track, speed: float, config: RobotConfig, chassis: Chassis)
         s, motion = line.length - max(target.remaining or 0.0, 0.0), chassis.motion
         v = regulation.regulate(
             target, wanted=_planned(planned, line, s), now_ns=now_ns, turn_gain=tracking.controller.turn_gain,
-            lateral_std=0.0, capturing=True, push=tracking.controller.slip, demand=demand,
+            push=tracking.controller.slip, demand=demand,
         ).speed  # fmt: skip
         aim = tracking.look_ahead(Way(v=v, curvature=target.curvature_ahead(0.0), in_row=False, room=None))
         steering = tracking.controller.steer(target, motion, v=v, look_ahead=aim, now_ns=now_ns)

@@ -151,9 +151,7 @@ def drive(
         )
         assert target.remaining is not None
         near_s = course.length - max(target.remaining, 0.0)
-        limit = regulation.regulate(
-            target, wanted=v, now_ns=now_ns, turn_gain=controller.turn_gain, lateral_std=0.02, capturing=true_s < 10.0
-        )
+        limit = regulation.regulate(target, wanted=v, now_ns=now_ns, turn_gain=controller.turn_gain)
         speed = v if hold_speed else limit.speed
         told = replace(motion, drift=drift)
         steering = controller.steer(target, told, v=speed, look_ahead=look_ahead, now_ns=now_ns)
