@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from datetime import UTC, datetime, timedelta
+
+import pytest
 
 from backend.run_figures import RunFigures
 from navcore.messages import FixQuality, NavMode, NavStatus, RunState
@@ -38,3 +41,18 @@ def test_a_stopped_run_that_is_resumed_has_not_ended() -> None:
     assert after(figures, RunState.STOPPED, 1.0) == NOON + timedelta(minutes=1.0)
     assert after(figures, RunState.DRIVING, 2.0) is None
     assert after(figures, RunState.STOPPED, 3.0) == NOON + timedelta(minutes=3.0)
+
+
+def test_the_way_from_where_it_was_parked_to_its_line_is_no_deviation_from_it() -> None:
+    figures, driving = RunFigures("r1"), replace(status_of(RunState.DRIVING), v=0.5)
+    for k, off in enumerate((-0.79, -0.79, -0.5, -0.2, 0.1, -0.4, 0.1)):
+        figures.add(replace(driving, stamp_ns=k * 500_000_000, lateral_error=off))
+    assert figures.max_error == pytest.approx(0.4)  # m
+    assert figures.mean_error == pytest.approx((0.2 + 0.1 + 0.4 + 0.1) / 4)  # m
+
+
+def test_a_run_that_never_came_near_its_line_has_no_deviation() -> None:
+    figures, driving = RunFigures("r1"), replace(status_of(RunState.DRIVING), v=0.5)
+    for k in range(4):
+        figures.add(replace(driving, stamp_ns=k * 500_000_000, lateral_error=0.9))
+    assert figures.columns(NOON)["max_lateral_error"] is None
