@@ -72,14 +72,9 @@ def stopping_distance(v: float, params: SpeedRegulationParams) -> float:
     return v * params.reaction + v * v / (2.0 * params.braking)
 
 
-def turn_speed(curvature: float, turn_gain: float, share: float, params: SpeedRegulationParams) -> float:
-    """At which so large a share of the turn rate is asked for on this ground, m/s, for a curvature, 1/m."""
-    return share * params.max_turn_rate * turn_gain / max(abs(curvature), 1e-6)
-
-
 def curve_speed(curvature: float, turn_gain: float, params: SpeedRegulationParams) -> tuple[float, str]:
     """What a curve (1/m) allows by turn rate on this ground and by lateral acceleration, m/s, and which of them."""
-    turning = turn_speed(curvature, turn_gain, params.turn_share, params)
+    turning = params.turn_share * params.max_turn_rate * turn_gain / max(abs(curvature), 1e-6)
     leaning = math.sqrt(params.max_lateral_acceleration / max(abs(curvature), 1e-6))
     return (turning, TURNING) if turning <= leaning else (leaning, LEANING)
 
@@ -110,8 +105,12 @@ def push_limit(curvature: float, push: float, turn_gain: float, params: SpeedReg
 
     A side that slips adds as much to the turn as the robot is fast, whatever the steering.
     """
-    speed = turn_speed(curvature - push, turn_gain, params.push_share, params)
-    return SpeedLimit(speed=speed, reason=PUSHED)
+    bent, pushed = abs(curvature) / params.turn_share, abs(curvature - push) - abs(curvature)
+    if pushed <= 0.0:
+        return SpeedLimit(speed=math.inf, reason=PUSHED)
+    against = pushed / params.push_share
+    speed = params.max_turn_rate * turn_gain / (bent + against)
+    return SpeedLimit(speed=speed, reason=PUSHED if against > bent else TURNING)
 
 
 def demand_limit(demand: float, speed: float, params: SpeedRegulationParams) -> SpeedLimit:

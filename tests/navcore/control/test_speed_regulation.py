@@ -85,8 +85,22 @@ def test_where_the_ground_turns_the_robot_it_drives_only_as_fast_as_it_can_steer
 
 
 def test_ground_that_pushes_the_way_the_line_bends_slows_nobody() -> None:
-    assert push_limit(0.2, 0.2, 0.5, P).speed > 100.0
-    assert push_limit(0.2, -0.2, 0.5, P).speed == pytest.approx(push_limit(0.0, 0.4, 0.5, P).speed)
+    assert push_limit(0.2, 0.2, 0.5, P).speed == math.inf
+    assert push_limit(0.2, 0.05, 0.5, P).speed == math.inf
+
+
+def test_ground_that_does_not_push_slows_in_curves_no_more_than_the_curve_does() -> None:
+    assert push_limit(0.3, 0.0, 0.5, P).speed == math.inf
+    a_little = push_limit(0.3, -0.01, 0.5, P)
+    assert a_little.speed == pytest.approx(curve_speed(0.3, 0.5, P)[0], rel=0.06)
+    assert "curve" in a_little.reason
+
+
+def test_curve_and_push_each_get_their_share_of_the_steering() -> None:
+    limit = push_limit(0.2, -0.2, 0.5, P)
+    needed = limit.speed * (0.2 / P.turn_share + 0.2 / P.push_share)
+    assert needed == pytest.approx(0.5 * P.max_turn_rate)  # rad/s on the ground
+    assert "pushes" in limit.reason
 
 
 def test_a_robot_that_cannot_steer_as_hard_as_it_should_goes_slower_but_does_not_stop() -> None:
