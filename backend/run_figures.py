@@ -23,8 +23,8 @@ class RunFigures:
         run_id: the run; statuses of others must not be added.
         started_ns: monotonic time of its first status.
         distance_m: integral of |v| over the statuses.
-        reached: it has been on its line; errors count from there.
         abs_error_m: integral of |lateral error| over the driven distance, m^2.
+        max_error: m, None until it has been on its line; errors count from there.
         stop_reason: why it was stopped, kept after the stop is acknowledged; empty once it drives on.
         ended: when that was first written; None while it goes on.
     """
@@ -34,7 +34,6 @@ class RunFigures:
     last: NavStatus | None = None
     duration_s: float = 0.0
     distance_m: float = 0.0
-    reached: bool = False
     abs_error_m: float = 0.0
     error_distance_m: float = 0.0
     max_error: float | None = None
@@ -72,11 +71,11 @@ class RunFigures:
             self._add_error(abs(status.lateral_error), step_m)
 
     def _add_error(self, off: float, step_m: float) -> None:
-        self.reached = self.reached or off <= REACHED_M
-        if self.reached:
-            self.abs_error_m += off * step_m
-            self.error_distance_m += step_m
-            self.max_error = max(self.max_error or 0.0, off)
+        if self.max_error is None and off > REACHED_M:
+            return
+        self.abs_error_m += off * step_m
+        self.error_distance_m += step_m
+        self.max_error = max(self.max_error or 0.0, off)
 
     def _note_changes(self, before: NavStatus | None, status: NavStatus) -> None:
         known = {event.name for event in before.events} if before else set()
@@ -137,7 +136,6 @@ def resumed(run: RunDocument) -> RunFigures:
         distance_m=run.distance_m,
         abs_error_m=(run.mean_lateral_error or 0.0) * run.distance_m,
         error_distance_m=run.distance_m if run.mean_lateral_error is not None else 0.0,
-        reached=run.max_lateral_error is not None,
         max_error=run.max_lateral_error,
         switches=run.mode_switches,
         holds=run.holds,

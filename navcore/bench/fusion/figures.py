@@ -98,7 +98,7 @@ def _tree_figures(results: list[SegmentResult], seed: int | None) -> list[Figure
 def _look_time(results: list[SegmentResult], seed: int | None) -> list[Figure]:
     """The drives' medians, and their median: in the middle of pictures that are drawn, on all cores."""
     ours, theirs = [r.look_ms for r in results if r.look_ms], [r.published_ms for r in results if r.published_ms]
-    name = "the same between the drives' pictures, median of the drives, ours"
+    name = "from scan and boxes to the row between the drives' pictures, median, ours"
     return [
         Figure(
             figure=name, value=median(ours) if ours else None, unit="ms", n=len(ours), seed=seed,

@@ -90,7 +90,7 @@ def test_a_segment_is_driven_close_to_its_middle_and_kept(tmp_path: Path) -> Non
     assert driven.ours.found > driven.published.found
     assert driven.ours.found / driven.ours.trees > 0.75
     told = {f.figure: f for f in drive_figures((driven,))}
-    look = told["the same between the drives' pictures, median of the drives, ours"]
+    look = told["from scan and boxes to the row between the drives' pictures, median, ours"]
     assert (look.value, look.baseline) == (driven.look_ms, driven.published_ms)
     assert 0.0 < (driven.look_ms or 0.0) < 1000.0  # ms
     again = drive_all((CASE,), tmp_path, 1, lambda line: pytest.fail("driven twice"))

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from navcore.perception.plants.bending_kernels import about, averaged, basis, bends, inverse_root
+from navcore.perception.plants.bending_kernels import about, averaged, basis, bends, inverse_root, shared
 
 Floats = NDArray[np.float64]
 
@@ -92,3 +92,11 @@ def test_a_shift_goes_from_one_side_to_the_other_over_its_length_and_a_curve_wit
     shift, curve = bends(x, np.array(((2.0, 2.0),)), 0.1)
     assert shift.tolist() == [-0.5, -0.5, 0.0, 0.25, 0.5, 0.5]
     assert curve == pytest.approx(0.05 * x**2)
+
+
+def test_a_tree_and_its_stake_count_once_and_trees_a_metre_apart_each() -> None:
+    along = np.array((0.0, 0.3, 1.4, 1.5, 5.0, 5.2))
+    line = np.array((1.0, 1.0, 1.0, -1.0, -1.0, -1.0))
+    sure = np.array((1.0, 1.0, 0.8, 0.9, 0.3, 0.2))
+    assert shared(along, line, sure, 0.6) == pytest.approx((0.5, 0.5, 0.8, 0.9, 0.3, 0.2))
+    assert shared(along, line, sure, 0.0) == pytest.approx(sure)
