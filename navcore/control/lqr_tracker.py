@@ -37,7 +37,7 @@ class LqrTrackerParams:
     delay_known: bool = True
     push_known: bool = True
     lqr: LateralLqrParams = field(default_factory=LateralLqrParams)
-    scanned: LateralLqrParams = field(default_factory=lambda: LateralLqrParams(lateral=0.04, turn=0.3))
+    scanned: LateralLqrParams = field(default_factory=lambda: LateralLqrParams(lateral=0.03, heading=0.10, turn=0.6))
     slip: TurnSlipParams = field(default_factory=TurnSlipParams)
     drift: SideDriftParams = field(default_factory=SideDriftParams)
 

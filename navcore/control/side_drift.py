@@ -11,13 +11,15 @@ from navcore.control.target_line import TargetLine
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SideDriftParams:
     """Attributes:
-    distance: m over which the drift is learnt, > 0.
+    distance, scanned_distance: m over which the drift is learnt, > 0; the latter on a line through scanned plants,
+        which is known to centimetres.
     most: rad, no more is believed: a side slope of 5 deg pulls by 0.03.
     band: m; further off the line nothing is learnt, for the line itself may be sliding to its place.
     slowest: m/s, slower nothing is learnt.
     """
 
     distance: float = 2.5
+    scanned_distance: float = 1.5
     most: float = 0.06
     band: float = 0.15
     slowest: float = 0.15
@@ -37,13 +39,14 @@ class SideDrift:
         self.angle, self._lateral, self._last_ns = 0.0, None, -1
 
     def update(self, now_ns: int, target: TargetLine, motion: Motion) -> None:
-        """One tick. Critically damped: both poles at `distance` m."""
+        """One tick. Critically damped: both poles at the distance of such a line."""
         p, v = self._params, motion.v
+        distance = p.scanned_distance if target.scanned else p.distance
         dt = min((now_ns - self._last_ns) * 1e-9, 0.2) if self._last_ns >= 0 else 0.0
         self._last_ns = now_ns
         if v < p.slowest or abs(target.lateral_error) > p.band or self._lateral is None:
             self._lateral = target.lateral_error
             return
         way, off = v * dt, target.lateral_error - self._lateral
-        self._lateral += way * (target.heading_error + motion.drift + self.angle + 2.0 / p.distance * off)
-        self.angle = min(max(self.angle + way * off / p.distance**2, -p.most), p.most)
+        self._lateral += way * (target.heading_error + motion.drift + self.angle + 2.0 / distance * off)
+        self.angle = min(max(self.angle + way * off / distance**2, -p.most), p.most)

@@ -88,6 +88,18 @@ def test_a_drift_to_the_side_is_known_after_ten_metres(angle: float, v: float) -
     assert drift.angle == pytest.approx(angle, abs=0.1 * abs(angle) + 1e-4)
 
 
+def test_between_scanned_plants_a_drift_is_known_sooner() -> None:
+    def learnt(scanned: bool) -> float:
+        drift = SideDrift()
+        for k in range(100):  # 2 m
+            at = SE2(0.02 * k, 0.01 * 0.02 * k, 0.0)
+            target = target_from_path(LINE, at, source="truth", stamp_ns=0, max_age_ns=1, scanned=scanned)
+            drift.update(k * TICK_NS, target, Motion(v=1.0, omega=0.0))
+        return drift.angle
+
+    assert 0.001 < learnt(False) < 0.6 * learnt(True) < 0.01  # rad
+
+
 def test_far_from_the_line_and_slower_than_walking_no_drift_is_learnt() -> None:
     for y, v in ((0.5, 1.0), (0.1, 0.05)):
         drift = SideDrift()

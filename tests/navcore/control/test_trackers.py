@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 
 from navcore.control.line_tracker import LineTrackerParams
 from navcore.control.look_ahead import LookAheadParams
+from navcore.control.lqr_tracker import LqrTracker, LqrTrackerParams
 from navcore.control.prediction import ActuatorParams
 from navcore.control.steering import Motion, Steering
 from navcore.control.target_line import target_from_path
@@ -120,6 +121,16 @@ def test_from_half_a_metre_off_and_turned_away_it_gets_back_without_leaving_the_
     assert np.abs(driven.lateral).max() < ROOM
     assert np.abs(driven.lateral[driven.s > 12.0]).max() < 0.08  # m
     assert np.abs(driven.heading[driven.s > 12.0]).max() < math.radians(4.0)
+
+
+@pytest.mark.parametrize("v", [0.5, 1.0, 1.5, 2.0])
+def test_the_firm_steering_between_scanned_plants_does_not_swing_where_the_chassis_answers_twice_as_late(
+    v: float,
+) -> None:
+    firm = LqrTracker(LqrTrackerParams(lqr=LqrTrackerParams().scanned))
+    late = Unkind(dead_time=2.0 * ActuatorParams().dead_time, gnss_std=0.0, heading_std=0.0, creep=0.0)
+    driven = drive(straight(), firm, seed=32, v=v, unkind=late, start_offset=0.1)
+    assert np.abs(driven.lateral[driven.s > 15.0]).max() < 0.03  # m
 
 
 @pytest.mark.parametrize("name", OURS)
