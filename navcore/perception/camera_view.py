@@ -12,7 +12,6 @@ from navcore.geometry.pinhole import PinholeCamera
 from navcore.messages import (
     CameraName,
     CameraView,
-    DetectedObject,
     ImageArea,
     ImageLine,
     ImagePoint,
@@ -23,10 +22,13 @@ from navcore.messages.columns import made_of_columns
 from navcore.perception.corner_points import CornerPoints
 from navcore.perception.image_lines import image_line
 from navcore.perception.lean_watch import Reading
-from navcore.perception.plants.scanned_plants import ScannedPlants
+from navcore.perception.plants.box_association import boxed_as
 from navcore.perception.row_bands import row_bands
 from navcore.perception.row_lines import GroundRow, RowLines
 from navcore.perception.row_odometry import Driven
+from navcore.perception.seen_row import SeenRow
+
+Ints = NDArray[np.int64]
 
 # Of a row's scanned plants no more are told, and none further away, m.
 _MOST_PLANTS, _PLANTS_WITHIN = 12, 8.0
@@ -55,42 +57,47 @@ def row_observation(
     )  # fmt: skip
 
 
-def scanned_plants(
-    plants: ScannedPlants, sides: NDArray[np.int64], found: NDArray[np.int64]
-) -> tuple[ScannedPlant, ...]:
-    """Each with its side of the row, (M,) or none, and the object of the picture that it is: `found` (N,) tells."""
-    on = sides if len(sides) else np.zeros(len(plants), dtype=np.int64)
-    objects: list[int | None] = [None] * len(plants)
-    for i, plant in enumerate(found.tolist()):
-        if plant >= 0:
-            objects[plant] = i
-    numbers = plants.number, plants.xy[:, 0], plants.xy[:, 1], plants.diameter, plants.sureness, on
-    return made_of_columns(ScannedPlant, *(column.tolist() for column in numbers), objects)
+def told_plants(seen: SeenRow, which: Ints | None = None) -> tuple[ScannedPlant, ...]:
+    """All scanned plants of a look, or those of the given indices in that order, each with its side of the row and
+    the object of the picture that it is.
+    """
+    plants, sides = seen.look.plants, seen.lines.plant_sides
+    index = np.arange(len(plants)) if which is None else which
+    on = sides[index] if len(sides) else np.zeros(len(index), dtype=np.int64)
+    numbers = plants.number, plants.xy[:, 0], plants.xy[:, 1], plants.diameter, plants.sureness
+    objects = (None if k < 0 else k for k in boxed_as(seen.look.found, len(plants))[index].tolist())
+    return made_of_columns(ScannedPlant, *(column[index].tolist() for column in numbers), on.tolist(), objects)
 
 
-def plants_of_row(plants: tuple[ScannedPlant, ...]) -> tuple[ScannedPlant, ...]:
+def plants_of_row(seen: SeenRow) -> tuple[ScannedPlant, ...]:
     """Those on the row's two lines that are near enough to tell where along the row the robot is, nearest first."""
-    near = [plant for plant in plants if plant.side and math.hypot(plant.x, plant.y) <= _PLANTS_WITHIN]
-    return tuple(sorted(near, key=lambda plant: math.hypot(plant.x, plant.y))[:_MOST_PLANTS])
+    sides = seen.lines.plant_sides
+    if not len(sides):
+        return ()
+    away = np.hypot(*seen.look.plants.xy.T)
+    near = np.flatnonzero((sides != 0) & (away <= _PLANTS_WITHIN))
+    return told_plants(seen, near[np.argsort(away[near], kind="stable")[:_MOST_PLANTS]])
 
 
 def camera_view(
-    camera: PinholeCamera, objects: tuple[DetectedObject, ...], corners: CornerPoints, lines: RowLines,
-    ground: GroundRow | str, bisector: Line2 | None, row: RowObservation, latency_ms: float,
-    region: ImageArea | None = None,
-) -> CameraView:  # fmt: skip
-    """Boxes, corner points and lines, as they are drawn over the picture. A row that is not valid has no lines."""
-    shown = None if isinstance(ground, str) or not row.valid else ground
+    camera: PinholeCamera, seen: SeenRow, row: RowObservation, latency_ms: float, region: ImageArea | None = None
+) -> CameraView:
+    """Boxes, corner points, lines and plants, as they are drawn over the picture and from above. A row that is not
+    valid has no lines.
+    """
+    lines = seen.lines
+    shown = None if isinstance(seen.ground, str) or not row.valid else seen.ground
     left, right = (lines.left, lines.right) if shown else (None, None)
     centre = image_line(camera, offset=shown.offset, heading=shown.heading, pitch=shown.pitch) if shown else None
     left_band, right_band = row_bands(camera, shown) if shown else (None, None)
     pitch = shown.pitch if shown else 0.0
     return CameraView(
         stamp_ns=row.stamp_ns, camera=row.camera, width_px=camera.width_px, height_px=camera.height_px,
-        objects=objects, points=_points(corners, lines), left=_segment(left, camera, pitch),
+        objects=seen.look.objects, points=_points(seen.look.corners, lines), left=_segment(left, camera, pitch),
         right=_segment(right, camera, pitch), centre=_segment(centre, camera, pitch), row=row, latency_ms=latency_ms,
-        bisector=_segment(bisector if shown else None, camera, pitch), region=region,
-        left_band=left_band, right_band=right_band,
+        bisector=_segment(seen.bisector if shown else None, camera, pitch), region=region,
+        left_band=left_band, right_band=right_band, plants=told_plants(seen),
+        bearings=tuple(seen.bearings.tolist()), camera_x=camera.x,
     )  # fmt: skip
 
 

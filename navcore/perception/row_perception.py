@@ -4,15 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from enum import StrEnum
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from navcore.geometry.pinhole import PinholeCamera
 from navcore.geometry.se2 import SE2
-from navcore.messages import CameraName, CameraView, DetectedObject, RowSource
-from navcore.perception.camera_view import camera_view, plants_of_row, row_observation, scanned_plants
+from navcore.messages import CameraName, CameraView, DetectedObject, RowObservation
+from navcore.perception.camera_view import camera_view, plants_of_row, row_observation
 from navcore.perception.corner_points import CornerPoints, corner_points
 from navcore.perception.corridor_kernels import SURE
 from navcore.perception.corridor_track import CorridorTrackerParams
@@ -34,6 +33,7 @@ from navcore.perception.row_lines import GroundRow, RowCue, RowLineFitter, RowLi
 from navcore.perception.row_odometry import RowOdometry, RowOdometryParams
 from navcore.perception.row_ransac import Ransac, RansacParams
 from navcore.perception.scan_evidence import ScanEvidence
+from navcore.perception.seen_row import Look, SeenRow
 from navcore.perception.temporal_ransac import SlopeCheckParams, TemporalRansac
 
 
@@ -82,33 +82,6 @@ def row_line_fitter(camera: PinholeCamera, params: RowPerceptionParams) -> RowLi
     return ransac if params.method is RowMethod.RANSAC else TemporalRansac(ransac, camera, params.slope_check)
 
 
-class Look(NamedTuple):
-    """What one moment gave to see.
-
-    Attributes:
-        fault: what is wrong with the picture, empty if nothing is.
-        objects: of the picture. corners: their corner points, those that count.
-        plants: scanned ones. found: (N,) which of them each object is, -1 for none.
-        scan: what they add to the picture, None if there are none.
-        level: (M, 4) the same plants as in `ScanEvidence`, but on the level ground.
-    """
-
-    fault: str
-    objects: tuple[DetectedObject, ...]
-    corners: CornerPoints
-    plants: ScannedPlants
-    found: NDArray[np.int64]
-    scan: ScanEvidence | None
-    level: NDArray[np.float64]
-
-    @property
-    def source(self) -> RowSource:
-        """The sensors that took part."""
-        if self.scan is None:
-            return RowSource.CAMERA
-        return RowSource.LIDAR if self.fault else RowSource.FUSED
-
-
 class RowPerception:
     """Looks for the row in the pictures of one camera. Feed it every picture in order, or `forget` in between."""
 
@@ -130,38 +103,47 @@ class RowPerception:
         self, image: Image | None, stamp_ns: int, camera_name: CameraName, *, prior: RowPrior | None = None,
         motion: SE2 | None = None, latency_ms: float = 0.0, plants: ScannedPlants | None = None,
     ) -> CameraView:  # fmt: skip
-        """What is seen in one picture (H, W, 3), BGR, or without one by scanned plants alone.
+        """What is seen in one picture, see `observe`, with all that is drawn over it."""
+        seen = self.observe(image, stamp_ns, camera_name, prior=prior, motion=motion, plants=plants)
+        return self.drawn(seen, seen.row, latency_ms)
+
+    def observe(
+        self, image: Image | None, stamp_ns: int, camera_name: CameraName, *, prior: RowPrior | None = None,
+        motion: SE2 | None = None, plants: ScannedPlants | None = None,
+    ) -> SeenRow:  # fmt: skip
+        """The row in one picture (H, W, 3), BGR, or without one by scanned plants alone.
 
         `motion` is the pose of `base_link` at this picture in `base_link` at the last one (`T_last_now`, from
         odometry); without it nothing of earlier pictures is used. `prior` and `plants` are in the driving frame.
         """
-        seen = self._look(image, plants or no_plants(), prior)
-        cue = RowCue(prior=prior, motion=self._driven(motion), scan=seen.scan)
-        lines = self._fitter.fit(seen.corners, cue)
-        ground = self._on_ground(lines, seen.corners)
+        look = self._look(image, plants, prior)
+        cue = RowCue(prior=prior, motion=self._driven(motion), scan=look.scan)
+        lines = self._fitter.fit(look.corners, cue)
+        ground = self._on_ground(lines, look.corners)
         bisector = image_bisector(lines.left, lines.right) if lines.left and lines.right else None
         published = published_reading(bisector, self._camera, self._params.look_ahead) if bisector else None
         told = None if isinstance(ground, str) or ground.carried else ground
         reading = self._read_lean(told, cue)
         driven = self._odometry.see(told, cue.motion, stamp_ns)
         end = self._row_end(told, cue.motion)
-        ground = self._by_scan(ground, seen, prior.roll if prior else 0.0)
-        shown = ground if seen.scan else seen.fault or ground
+        ground = self._by_scan(ground, look, prior.roll if prior else 0.0)
+        shown = ground if look.scan else look.fault or ground
         row = row_observation(
             stamp_ns, camera_name, lines, shown, end, self._seen_to(ground), published, reading, driven
         )  # fmt: skip
-        row = replace(row, source=seen.source, missing=seen.fault if seen.scan else "")
-        view = camera_view(
-            self._camera, seen.objects, seen.corners, lines, ground, bisector, row, latency_ms, self._region
-        )  # fmt: skip
-        bearings = np.arctan(slopes(corners_of(seen.objects), self._camera, 0.0)) if seen.scan else np.empty(0)
-        plants_seen = scanned_plants(seen.plants, lines.plant_sides, seen.found)
-        row = replace(row, plants=plants_of_row(plants_seen) if row.in_sight else ())
-        return replace(view, row=row, plants=plants_seen, bearings=tuple(bearings.tolist()), camera_x=self._camera.x)
+        row = replace(row, source=look.source, missing=look.fault if look.scan else "")
+        bearings = np.arctan(slopes(corners_of(look.objects), self._camera, 0.0)) if look.scan else np.empty(0)
+        seen = SeenRow(row, look, lines, ground, bisector, bearings)
+        return seen._replace(row=replace(row, plants=plants_of_row(seen))) if row.in_sight else seen
 
-    def _look(self, image: Image | None, plants: ScannedPlants, prior: RowPrior | None) -> Look:
+    def drawn(self, seen: SeenRow, row: RowObservation, latency_ms: float = 0.0) -> CameraView:
+        """What was seen, drawn with the row as it is told."""
+        return camera_view(self._camera, seen, row, latency_ms, self._region)
+
+    def _look(self, image: Image | None, scanned: ScannedPlants | None, prior: RowPrior | None) -> Look:
         fault = self._fault(image) if image is not None else "the camera gives no picture"
         objects = () if fault or image is None else self._detector.detect(image)
+        plants = no_plants() if scanned is None else scanned
         roll, pitch, land = (prior.roll, prior.pitch or 0.0, prior.land_roll) if prior else (0.0, 0.0, 0.0)
         # Boxes reach about as high as the scan: one body carries both sensors, however it leans.
         single, found = one_per_foot(objects, self._camera.width_px), np.full(len(objects), -1, dtype=np.int64)
@@ -172,7 +154,7 @@ class RowPerception:
         corners, used = self._corner_points(objects, single)
         scan = ScanEvidence(plants=leaning.evidence(), paired=found[used]) if len(plants) else None
         level = level_plants(plants, roll, land).evidence()
-        return Look(fault, objects, corners, plants, found, scan, level)
+        return Look(fault, objects, corners, scanned is not None, plants, found, scan, level)
 
     def _read_lean(self, row: GroundRow | None, cue: RowCue) -> Reading | None:
         roll, pitch = (cue.prior.roll, cue.prior.pitch or 0.0) if cue.prior else (0.0, 0.0)

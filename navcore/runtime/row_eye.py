@@ -21,6 +21,7 @@ from navcore.messages import (
     RowSource,
 )
 from navcore.perception import drawing_kernels as drawing
+from navcore.perception.camera_view import told_plants
 from navcore.perception.detector import Image
 from navcore.perception.image_lines import driving_camera
 from navcore.perception.levelling import leaning_offset, levelled
@@ -31,6 +32,7 @@ from navcore.perception.plants.scan_eye import ScanEye
 from navcore.perception.plants.scanned_plants import ScannedPlants
 from navcore.perception.row_lines import RowPrior
 from navcore.perception.row_perception import RowPerception
+from navcore.perception.seen_row import SeenRow
 
 LEAST_PRIOR_STD = 0.15
 WRONG_ROW = 0.38
@@ -54,7 +56,13 @@ class RowEye:
         self, image: Image | None, stamp_ns: int, request: CameraRequest, latency_ms: float = 0.0,
         scans: tuple[LidarScan, ...] = (),
     ) -> CameraView:  # fmt: skip
-        """What one picture (H, W, 3) BGR of the camera that was asked for and the scans since the last one show.
+        """What `observe` sees, with all that is drawn."""
+        return self.drawn(self.observe(image, stamp_ns, request, scans), latency_ms)
+
+    def observe(
+        self, image: Image | None, stamp_ns: int, request: CameraRequest, scans: tuple[LidarScan, ...] = ()
+    ) -> SeenRow:
+        """The row in one picture (H, W, 3) BGR of the camera that was asked for and in the scans since the last one.
 
         Without a picture the scans alone show the row.
         """
@@ -64,15 +72,18 @@ class RowEye:
             perception.forget()
         self._last = request
         prior, plants = row_prior(request, camera.z), self._plants(stamp_ns, request, scans)
-        view = perception.process(
-            image, stamp_ns, request.camera, prior=prior, motion=motion, latency_ms=latency_ms, plants=plants
-        )  # fmt: skip
-        if _is_another_row(view.row, prior):
+        seen = perception.observe(image, stamp_ns, request.camera, prior=prior, motion=motion, plants=plants)
+        if _is_another_row(seen.row, prior):
             perception.forget()
-        self._tell(view, plants, camera)
-        row = levelled(view.row, camera.z, request.roll)
-        view = replace(view, row=replace(row, missing=row.missing or self._missing(request, plants)))
-        return view if plants is None else self._with_scan(self._checked(view), request.camera)
+        self._tell(seen, camera)
+        row = levelled(seen.row, camera.z, request.roll)
+        row = replace(row, missing=row.missing or self._missing(request, plants))
+        return seen._replace(row=row if plants is None else self._checked(row, seen))
+
+    def drawn(self, seen: SeenRow, latency_ms: float = 0.0) -> CameraView:
+        """What was seen last, for whoever looks on."""
+        view = self._perceptions[seen.row.camera].drawn(seen, seen.row, latency_ms)
+        return self._with_scan(view, seen.row.camera) if seen.look.scanned else view
 
     def _plants(self, stamp_ns: int, request: CameraRequest, scans: tuple[LidarScan, ...]) -> ScannedPlants | None:
         """Scanned plants in the driving frame, None without a LiDAR that sees.
@@ -89,10 +100,14 @@ class RowEye:
             return found
         return found.seen_from(_driving_frame(request.camera))
 
-    def _checked(self, view: CameraView) -> CameraView:
+    def _checked(self, row: RowObservation, seen: SeenRow) -> RowObservation:
         """With what its trunks say of the camera's mount."""
-        agreement = self._watches[view.row.camera].see(view) if self._watches else None
-        return replace(view, row=replace(view.row, agreement=agreement)) if agreement else view
+        watch = self._watches.get(row.camera)
+        if watch is None:
+            return row
+        boxed = told_plants(seen, np.sort(seen.look.found[seen.look.found >= 0]))
+        agreement = watch.see(seen.row.stamp_ns, seen.look.plants.number.tolist(), boxed, seen.bearings)
+        return replace(row, agreement=agreement) if agreement else row
 
     def _with_scan(self, view: CameraView, camera: CameraName) -> CameraView:
         """With the ends of the newest scan's rays, for drawing: in the picture and from above."""
@@ -105,10 +120,12 @@ class RowEye:
         )  # fmt: skip
         return replace(view, scan=_pairs(pixels), ends=_pairs(above))
 
-    def _tell(self, view: CameraView, plants: ScannedPlants | None, camera: PinholeCamera) -> None:
+    def _tell(self, seen: SeenRow, camera: PinholeCamera) -> None:
         """What the picture makes of the plants, if there is one."""
-        if self._scan_eye is not None and plants is not None and view.row.source is RowSource.FUSED:
-            self._scan_eye.told(view, plants.number[should_be_seen(plants, camera)])
+        if self._scan_eye is not None and seen.row.source is RowSource.FUSED:
+            plants, found = seen.look.plants, seen.look.found
+            boxed = plants.number[np.sort(found[found >= 0])]
+            self._scan_eye.told(boxed, plants.number[should_be_seen(plants, camera)])
 
     def _missing(self, request: CameraRequest, plants: ScannedPlants | None) -> str:
         """What is wrong with the LiDAR where a row is expected."""

@@ -119,19 +119,19 @@ class RowWorker:
                 self._feel(request)
             return
         self._pictured_ns = picture.stamp_ns
-        view = self._eye.look(picture.image, picture.stamp_ns, request, scans=self._scans_once())
+        seen = self._eye.observe(picture.image, picture.stamp_ns, request, self._scans_once())
         if for_navigator:
-            self._publisher.publish(ROW_OBSERVATION.name, view.row)
+            self._publisher.publish(ROW_OBSERVATION.name, seen.row)
         latency_ms = (time.monotonic_ns() - picture.stamp_ns) * 1e-6
-        self._show(replace(view, latency_ms=latency_ms), picture.image)
+        self._show(self._eye.drawn(seen, latency_ms), picture.image)
 
     def _feel(self, request: CameraRequest) -> None:
         """By scans alone, where the camera gives no pictures any more."""
         now_ns = time.monotonic_ns()
         if self._scans is not None and now_ns - self._pictured_ns > BLIND_NS:
-            view = self._eye.look(None, now_ns, request, scans=self._scans_once())
-            self._publisher.publish(ROW_OBSERVATION.name, view.row)
-            self._publisher.publish(CAMERA_VIEW.name, view)
+            seen = self._eye.observe(None, now_ns, request, self._scans_once())
+            self._publisher.publish(ROW_OBSERVATION.name, seen.row)
+            self._publisher.publish(CAMERA_VIEW.name, self._eye.drawn(seen))
 
     def _take_scans(self) -> tuple[LidarScan, ...]:
         """New scans, told on to whoever draws or records them."""

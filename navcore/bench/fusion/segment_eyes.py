@@ -93,7 +93,8 @@ class _Keeping:
 class OurEye:
     """Camera and LiDAR as the row worker sees with them.
 
-    `seconds` are what each look took that showed a row to both: all but the picture and its boxes.
+    `seconds` are what each look took that showed a row to both, until the row was known: the picture, its boxes and
+    what is drawn for those who look on are left out.
     """
 
     def __init__(self, pictures: Pictures, config: RobotConfig, mount: LidarMount) -> None:
@@ -115,10 +116,10 @@ class OurEye:
         """What these boxes of the picture and these scans show."""
         self._told.objects = objects
         began = time.perf_counter()
-        view = self._eye.look(image, stamp_ns, request, scans=scans)
-        if view.row.valid and view.row.source is RowSource.FUSED:
+        seen = self._eye.observe(image, stamp_ns, request, scans)
+        if seen.row.valid and seen.row.source is RowSource.FUSED:
             self.seconds.append(time.perf_counter() - began)
-        return view
+        return self._eye.drawn(seen)
 
 
 class OracleEye:

@@ -76,6 +76,14 @@ def associate(
     return np.where(found < 0, -1, in_reach[found])
 
 
+def boxed_as(found: Ints, plants: int) -> Ints:
+    """(M,) index of the object that each of so many plants is, -1 for none, of what `associate` found."""
+    objects = np.full(plants, -1, dtype=np.int64)
+    which = np.flatnonzero(found >= 0)
+    objects[found[which]] = which
+    return objects
+
+
 def _in_reach(
     boxes: Floats, plants: ScannedPlants, camera: PinholeCamera, pitch: float, p: BoxAssociationParams
 ) -> Ints:  # fmt: skip

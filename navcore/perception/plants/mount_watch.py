@@ -7,11 +7,17 @@ asked once, where it stands near enough to be told and far enough ahead to be in
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
 
 from navcore.calibration.mount_check import MountCheck, MountCheckParams, TrunkPair
 from navcore.geometry.pinhole import PinholeCamera
-from navcore.messages import CameraView, MountAgreement, ScannedPlant
+from navcore.messages import MountAgreement, ScannedPlant
+
+Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -46,23 +52,28 @@ class MountWatch:
         self._check = MountCheck(params.check)
         self._asked: dict[int, int] = {}
 
-    def see(self, view: CameraView) -> MountAgreement | None:
-        """What is known after a picture that shows trunks anew; None where it shows none."""
-        self._seen_again(view)
-        boxed = (plant for plant in view.plants if plant.object is not None)
-        new = [plant for plant in boxed if self._to_be_asked(plant, view.stamp_ns)]
+    def see(
+        self, stamp_ns: int, numbers: Iterable[int], boxed: Iterable[ScannedPlant], bearings: Floats
+    ) -> MountAgreement | None:
+        """What is known after a picture that shows trunks anew; None where it shows none.
+
+        `numbers` are those of all scanned plants, `boxed` the plants that are objects of the picture, which are seen
+        at `bearings` (N,) from the camera, rad to the left.
+        """
+        self._seen_again(numbers, stamp_ns)
+        new = [plant for plant in boxed if self._to_be_asked(plant, stamp_ns)]
         for plant in new:
-            self._check.add(self._pair(plant, view.bearings[plant.object or 0]))
+            self._check.add(self._pair(plant, float(bearings[plant.object or 0])))
         if not new:
             return None
         state = self._check.state()
         return MountAgreement(trunks=state.pairs, yaw=state.yaw, yaw_std=state.yaw_std, moved=state.moved)
 
-    def _seen_again(self, view: CameraView) -> None:
+    def _seen_again(self, numbers: Iterable[int], stamp_ns: int) -> None:
         """Trunks that were asked are the same ones for as long as they are seen."""
-        for number in self._asked.keys() & {plant.number for plant in view.plants}:
-            if self._is_known(number, view.stamp_ns):
-                self._asked[number] = view.stamp_ns
+        for number in self._asked.keys() & set(numbers):
+            if self._is_known(number, stamp_ns):
+                self._asked[number] = stamp_ns
 
     def _is_known(self, number: int, stamp_ns: int) -> bool:
         since = self._asked.get(number)

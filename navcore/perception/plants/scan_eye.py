@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from navcore.geometry.lidar_mount import LidarMount
 from navcore.geometry.se2 import SE2
-from navcore.messages import CameraView, LidarScan
+from navcore.messages import LidarScan
 from navcore.perception.plants.odometry_trail import OdometryTrail
 from navcore.perception.plants.plant_tracker import PlantTracker, PlantTrackerParams
 from navcore.perception.plants.scanned_plants import ScannedPlants
@@ -84,7 +84,6 @@ class ScanEye:
             return np.empty((0, 3)), SE2()
         return self._ends, at.inverse() @ self._last[1]
 
-    def told(self, view: CameraView, expected: NDArray[np.int64]) -> None:
-        """What a picture makes of the plants: which it shows, and which it does not of those `expected` (numbers)."""
-        boxed = np.array([p.number for p in view.plants if p.object is not None], dtype=np.int64)
+    def told(self, boxed: NDArray[np.int64], expected: NDArray[np.int64]) -> None:
+        """What a picture makes of the plants (numbers): which it shows, and which it does not of those `expected`."""
         self._tracker.told_by_camera(boxed, expected)

@@ -19,7 +19,7 @@ from navcore.messages import (
     ObjectKind,
     RowSource,
 )
-from navcore.perception.detector import Told
+from navcore.perception.detector import Image, Told
 from navcore.perception.plants.scan_eye import ScanEye
 from navcore.perception.row_perception import RowPerception, RowPerceptionParams
 from navcore.runtime.row_eye import RowEye
@@ -50,12 +50,16 @@ class Drive:
 
     def look(self, *, camera: bool = True, scan: bool = True) -> CameraView:
         """One picture further."""
+        image, stamp_ns, request, scans = self.next_look()
+        return self.eye.look(image if camera else None, stamp_ns, request, scans=scans if scan else ())
+
+    def next_look(self) -> tuple[Image, int, CameraRequest, tuple[LidarScan, ...]]:
+        """What the next moment gives to see."""
         self.pose, self.i = self.pose @ SE2.arc(STEP, -0.0008), self.i + 1
         boxes = self._boxes()
         posts = (replace(box, kind=ObjectKind.POST, confidence=0.5) for box in boxes if self.boxes_again)
         self.told.objects = (*boxes, *posts)
-        image = picture(FRONT) if camera else None
-        return self.eye.look(image, self.i * NS, self._request(), scans=(self._scan(),) if scan else ())
+        return picture(FRONT), self.i * NS, self._request(), (self._scan(),)
 
     def _boxes(self) -> tuple[DetectedObject, ...]:
         # A box about a trunk is nearly twice as wide: trunks sway and fork.
@@ -238,3 +242,21 @@ def test_a_picture_alone_is_as_good_as_without_a_lidar() -> None:
     for _ in range(15):
         a, b = drive.look(scan=False).row, without.look().row
         assert a.offset == pytest.approx(b.offset, abs=1e-12)
+
+
+def test_what_the_lidar_meets_is_drawn_even_where_none_of_it_is_a_plant() -> None:
+    drive = Drive(3)
+    drive.trunks, drive.diameters = np.array(((4.0, 0.0),)), np.array((2.0,))
+    drive.look(camera=False)
+    view = drive.look(camera=False)
+    assert not view.plants
+    assert view.ends
+
+
+def test_what_is_drawn_later_is_the_row_that_was_told_first() -> None:
+    told, drawn = Drive(3), Drive(3)
+    for _ in range(20):
+        seen = told.eye.observe(*told.next_look())
+        view = drawn.look()
+        assert told.eye.drawn(seen, 40.0) == replace(view, latency_ms=40.0)
+        assert seen.row == view.row

@@ -8,37 +8,23 @@ import numpy as np
 import pytest
 
 from navcore.geometry.pinhole import robot_camera
-from navcore.messages import (
-    CameraName,
-    CameraView,
-    DetectedObject,
-    MountAgreement,
-    ObjectKind,
-    RowObservation,
-    ScannedPlant,
-)
+from navcore.messages import MountAgreement, ScannedPlant
 from navcore.perception.plants.mount_watch import MountWatch
 
 CAMERA = robot_camera()
-BOX = DetectedObject(kind=ObjectKind.TRUNK, confidence=0.8, x1=0.0, y1=0.0, x2=1.0, y2=1.0)
 SECOND = 1_000_000_000
 
 
-def view(
-    stamp_ns: int, plants: dict[int, tuple[float, float]], turned: float, rng: np.random.Generator
-) -> CameraView:
+def seen(
+    watch: MountWatch, stamp_ns: int, plants: dict[int, tuple[float, float]], turned: float, rng: np.random.Generator
+) -> MountAgreement | None:
     """A picture of trunks by number, of a camera that looks further left by `turned` rad than it should."""
-    seen, bearings = [], []
+    boxed, bearings = [], []
     for k, (number, (x, y)) in enumerate(plants.items()):
-        seen.append(ScannedPlant(number=number, x=x, y=y, diameter=0.09, sureness=0.95, side=1, object=k))
+        boxed.append(ScannedPlant(number=number, x=x, y=y, diameter=0.09, sureness=0.95, side=1, object=k))
         true = math.atan2(y - CAMERA.y, x - CAMERA.x)
         bearings.append(true - turned + rng.normal(0.0, 0.008))
-    row = RowObservation(stamp_ns=stamp_ns, camera=CameraName.FRONT, valid=False, reason="")
-    return CameraView(
-        stamp_ns=stamp_ns, camera=CameraName.FRONT, width_px=640, height_px=360, objects=(BOX,) * len(seen),
-        points=(), left=None, right=None, centre=None, row=row, latency_ms=0.0, plants=tuple(seen),
-        bearings=tuple(bearings), camera_x=CAMERA.x,
-    )  # fmt: skip
+    return watch.see(stamp_ns, list(plants), boxed, np.array(bearings))
 
 
 def told_in_a_row(turned: float, trunks: int, seed: int) -> MountAgreement:
@@ -48,7 +34,7 @@ def told_in_a_row(turned: float, trunks: int, seed: int) -> MountAgreement:
         side = 1.3 if number % 2 else -1.3
         for k in range(10):
             stamp_ns = (10 * number + k) * SECOND // 10
-            last = watch.see(view(stamp_ns, {number: (4.4 - 0.1 * k, side)}, turned, rng)) or last
+            last = seen(watch, stamp_ns, {number: (4.4 - 0.1 * k, side)}, turned, rng) or last
     assert last is not None
     return last
 
@@ -70,9 +56,9 @@ def test_a_trunk_is_asked_once_however_many_pictures_show_it() -> None:
 
 def test_a_number_that_comes_back_after_a_minute_is_another_trunk() -> None:
     rng, watch = np.random.default_rng(1), MountWatch(CAMERA)
-    first = watch.see(view(0, {3: (3.0, 1.3)}, 0.0, rng))
-    assert watch.see(view(SECOND, {3: (2.9, 1.3)}, 0.0, rng)) is None
-    again = watch.see(view(61 * SECOND, {3: (3.0, 1.3)}, 0.0, rng))
+    first = seen(watch, 0, {3: (3.0, 1.3)}, 0.0, rng)
+    assert seen(watch, SECOND, {3: (2.9, 1.3)}, 0.0, rng) is None
+    again = seen(watch, 61 * SECOND, {3: (3.0, 1.3)}, 0.0, rng)
     assert first is not None
     assert again is not None
     assert (first.trunks, again.trunks) == (1, 2)
@@ -80,4 +66,4 @@ def test_a_number_that_comes_back_after_a_minute_is_another_trunk() -> None:
 
 def test_far_trunks_and_unsure_ones_are_not_asked() -> None:
     rng, watch = np.random.default_rng(1), MountWatch(CAMERA)
-    assert watch.see(view(0, {1: (7.0, 1.3), 2: (1.2, 0.8)}, 0.0, rng)) is None
+    assert seen(watch, 0, {1: (7.0, 1.3), 2: (1.2, 0.8)}, 0.0, rng) is None
