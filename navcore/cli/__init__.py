@@ -20,6 +20,7 @@ from navcore.cli import (
     replay,
     report,
     run,
+    scan,
     score,
     see,
     train,
@@ -51,6 +52,7 @@ export.register(app)
 run.register(app)
 replay.register(app)
 see.register(app)
+scan.register(app)
 score.register(app)
 report.register(app)
 trunks.register(app)

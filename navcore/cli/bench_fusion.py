@@ -60,7 +60,8 @@ def bench_fusion(
     calibrated = run_calibration(QUICK if quick else CalibrationBenchParams(), tell)
     parts = (*calibrated, *cluster_figures(rounds=params.scans), *line_fit_figures(rounds=params.fits))
     cases = segment_cases(params.drives)
-    looks = look_time_figures(next(case for case in cases if case.chain is Chain.OURS))
+    timed = [case for case in cases if case.chain is Chain.OURS and case.chain in chains]
+    looks = look_time_figures(timed[0]) if timed else []
     drives = drive_all([case for case in cases if case.chain in chains], folder, params.processes, tell)
     figures, made = (*parts, *looks, *drive_figures(drives)), (commit(), machine())
     typer.echo(report(figures, *made) if as_json else lines(figures, *made))

@@ -91,8 +91,8 @@ class ScanClusters:
     def find(self, angles: Floats, distances: Floats) -> ScanTrunks:
         """Of one turn: bearings (N,) rad and ranges (N,) m, 0 where nothing came back, as in `LidarScan`."""
         bearing, rho, range_std, bearing_std, diameter, diameter_std, cut, rays, moment, roughness = trunks(
-            angles, distances, self._of_things, self._of_trunks
-        )
+            np.ascontiguousarray(angles), np.ascontiguousarray(distances), self._of_things, self._of_trunks
+        )  # fmt: skip
         return ScanTrunks(
             bearing=bearing, range=rho, range_std=range_std, bearing_std=bearing_std, diameter=diameter,
             diameter_std=diameter_std, cut=cut > 0.0, rays=rays.astype(np.int64), moment=moment, roughness=roughness,

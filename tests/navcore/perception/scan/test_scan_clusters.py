@@ -109,3 +109,9 @@ def test_a_scan_of_nothing_has_no_trunks() -> None:
 def test_as_many_rays_as_paper_b_expects() -> None:
     ranges = np.array([1.0, 2.0, 4.0])
     assert expected_rays(0.1, ranges, np.radians(0.225)) == pytest.approx(360 * 0.1 / (2 * np.pi * ranges * 0.225))
+
+
+def test_columns_of_a_table_are_a_scan_as_good_as_any() -> None:
+    angles, distances = scan_of(at((-60.0, 1.5)), np.array((0.1,)))
+    table = np.column_stack((angles, distances))
+    assert len(ScanClusters().find(table[:, 0], table[:, 1])) == 1
