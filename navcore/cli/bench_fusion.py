@@ -40,7 +40,7 @@ def bench_fusion(
 
     from navcore.bench.fusion.calibration import QUICK, CalibrationBenchParams
     from navcore.bench.fusion.calibration import run_bench as run_calibration
-    from navcore.bench.fusion.clusters import cluster_figures
+    from navcore.bench.fusion.clusters import RUNS, cluster_figures, runs_of_rays
     from navcore.bench.fusion.figures import drive_figures
     from navcore.bench.fusion.fusion import QUICK_DRIVES, FusionBenchParams, drive_all
     from navcore.bench.fusion.line_fit import line_fit_figures
@@ -58,7 +58,8 @@ def bench_fusion(
     folder = resume or Path(tempfile.mkdtemp(prefix="rowpilot-fusion-"))
     tell(f"Drives are kept in {folder}")
     calibrated = run_calibration(QUICK if quick else CalibrationBenchParams(), tell)
-    parts = (*calibrated, *cluster_figures(rounds=params.scans), *line_fit_figures(rounds=params.fits))
+    clusters = cluster_figures(rounds=params.scans, others={RUNS: runs_of_rays})
+    parts = (*calibrated, *clusters, *line_fit_figures(rounds=params.fits))
     cases = segment_cases(params.drives)
     timed = [case for case in cases if case.chain is Chain.OURS and case.chain in chains]
     looks = look_time_figures(timed[0]) if timed else []

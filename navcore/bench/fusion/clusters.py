@@ -16,6 +16,7 @@ from navcore.bench.fusion.orchard_scan import OrchardScanParams, orchard_scan
 from navcore.bench.fusion.rand_index import adjusted_rand_index
 from navcore.bench.interleaved import interleaved
 from navcore.perception.scan.dbscan import DbscanParams, dbscan
+from navcore.perception.scan.scan_clusters import ScanClusters
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -25,6 +26,7 @@ Clustering = Callable[[Floats], Ints]
 # Scored on seeds from here on; below 1000 is for tuning.
 SEED = 5000
 SCIKIT, OPEN3D, OURS = "scikit-learn", "Open3D", "DBSCAN in scan order"
+RUNS = "runs of rays, ours"
 TRUNK_RAYS = "agreement with the true trunks, rays that met one"
 TOLD_RAYS = "agreement with the true trunks, rays that met one or are in a cluster"
 _WANTED_MS, _WANTED_ARI = 0.25, 0.99
@@ -60,6 +62,16 @@ def cluster_figures(
 
 def _ours(points: Floats, params: DbscanParams) -> Ints:
     return dbscan(points, eps=params.eps, min_points=params.min_points, centre=(0.0, 0.0))
+
+
+def runs_of_rays(points: Floats) -> Ints:
+    """(N,) which trunk of `ScanClusters` each ray met, -1 for none, of points (N, 2) in scan order."""
+    distances = np.hypot(points[:, 0], points[:, 1])
+    found = ScanClusters().find(np.unwrap(np.arctan2(points[:, 1], points[:, 0])), distances)
+    labels = np.full(len(points), -1, dtype=np.int64)
+    for k, (first, last) in enumerate(zip(found.first, found.last, strict=True)):
+        labels[first : last + 1] = k
+    return labels
 
 
 def _libraries(params: DbscanParams) -> dict[str, Clustering]:

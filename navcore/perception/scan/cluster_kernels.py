@@ -148,10 +148,10 @@ def ray_std(rho: float, rules: TrunkRules) -> float:
 
 @njit(cache=True)
 def trunks(angles: Floats, distances: Floats, of_things: ThingRules, of_trunks: TrunkRules) -> Floats:
-    """Columns of `ScanTrunks`, (10, K), of one turn: bearings (N,) rad and ranges (N,) m."""
+    """Columns of `ScanTrunks`, (12, K), of one turn: bearings (N,) rad and ranges (N,) m."""
     step = ray_step(angles)
     found = things(angles, distances, step, of_things)
-    out, k = np.empty((10, len(found))), 0
+    out, k = np.empty((12, len(found))), 0
     for thing in found:
         if not may_be_trunk(thing, step, of_trunks):
             continue
@@ -164,5 +164,6 @@ def trunks(angles: Floats, distances: Floats, of_things: ThingRules, of_trunks: 
         out[4, k], out[5, k] = 2.0 * radius, math.hypot(edge, loose)
         out[6, k], out[7, k] = cut, rays
         out[8, k], out[9, k] = 0.5 * (first + last) / max(len(angles) - 1, 1), rms / noise
+        out[10, k], out[11, k] = first, last
         k += 1
     return out[:, :k].copy()

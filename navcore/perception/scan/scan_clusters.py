@@ -61,6 +61,7 @@ class ScanTrunks:
         diameter, diameter_std: (K,) m. cut: (K,) an edge is hidden: the diameter is the least it can be.
         rays: (K,) how many came back. moment: (K,) when its middle was met, 0 to 1 of the turn.
         roughness: (K,) RMS of the ranges about the circle, in 1-sigma of a range.
+        first, last: (K,) which of the turn's rays met it first and last.
     """
 
     bearing: Floats
@@ -73,6 +74,8 @@ class ScanTrunks:
     rays: Ints
     moment: Floats
     roughness: Floats
+    first: Ints
+    last: Ints
 
     def __len__(self) -> int:
         return len(self.bearing)
@@ -90,10 +93,11 @@ class ScanClusters:
 
     def find(self, angles: Floats, distances: Floats) -> ScanTrunks:
         """Of one turn: bearings (N,) rad and ranges (N,) m, 0 where nothing came back, as in `LidarScan`."""
-        bearing, rho, range_std, bearing_std, diameter, diameter_std, cut, rays, moment, roughness = trunks(
-            np.ascontiguousarray(angles), np.ascontiguousarray(distances), self._of_things, self._of_trunks
-        )  # fmt: skip
+        told = trunks(np.ascontiguousarray(angles), np.ascontiguousarray(distances), self._of_things, self._of_trunks)
+        bearing, rho, range_std, bearing_std, diameter, diameter_std, cut, rays, moment, roughness = told[:10]
+        first, last = told[10:].astype(np.int64)
         return ScanTrunks(
             bearing=bearing, range=rho, range_std=range_std, bearing_std=bearing_std, diameter=diameter,
             diameter_std=diameter_std, cut=cut > 0.0, rays=rays.astype(np.int64), moment=moment, roughness=roughness,
+            first=first, last=last,
         )  # fmt: skip

@@ -25,7 +25,7 @@ class WallParams:
 
     gap: float = 0.2
     gap_share: float = 0.15
-    corner: float = 0.03
+    corner: float = 0.05
     shortest: float = 0.5
     fewest: int = 8
     straight: float = 0.02
@@ -64,10 +64,14 @@ def _runs(xy: Floats, distances: Floats, params: WallParams) -> list[Floats]:
         return []
     apart = np.hypot(*(xy - np.roll(xy, 1, axis=0)).T)
     begins = np.flatnonzero(apart > np.maximum(params.gap, params.gap_share * distances))
-    if not len(begins):  # all around: it begins where it is furthest out, which is a corner
-        far = int(np.argmax(np.hypot(*(xy - xy.mean(axis=0)).T)))
-        return [np.roll(xy, -far, axis=0)]
-    return np.split(np.roll(xy, -begins[0], axis=0), begins[1:] - begins[0])
+    return _halves(xy) if not len(begins) else np.split(np.roll(xy, -begins[0], axis=0), begins[1:] - begins[0])
+
+
+def _halves(ring: Floats) -> list[Floats]:
+    """Of a run all around, (N, 2): from its corner furthest out to the one furthest from that, and back."""
+    ring = np.roll(ring, -int(np.argmax(np.hypot(*(ring - ring.mean(axis=0)).T))), axis=0)
+    opposite = int(np.argmax(np.hypot(*(ring - ring[0]).T)))
+    return [ring[: opposite + 1], np.vstack((ring[opposite:], ring[:1]))]
 
 
 def _straight(run: Floats, corner: float) -> list[Floats]:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from navcore.bench.fusion.clusters import OURS as SCAN_ORDER
-from navcore.bench.fusion.clusters import cluster_figures
+from navcore.bench.fusion.clusters import RUNS, cluster_figures, runs_of_rays
 from navcore.bench.fusion.line_fit import OURS, RANSAC, line_fit_scores, most_on_a_line
 from navcore.bench.fusion.orchard_scan import OrchardScanParams, orchard_scan
 from navcore.bench.fusion.rand_index import adjusted_rand_index
@@ -32,6 +32,13 @@ def test_ours_finds_the_most_points_every_time_and_ransac_does_not() -> None:
     scores = line_fit_scores(rounds=40, seed=1)
     assert scores[OURS].exact == 40
     assert scores[RANSAC].exact < 40
+
+
+def test_our_clusters_are_nearer_to_the_true_trunks_than_the_published_ones() -> None:
+    figures = cluster_figures(rounds=5, seed=1, others={RUNS: runs_of_rays})
+    judged = [f for f in figures if f.figure.startswith("agreement with") and f.figure.endswith(RUNS)]
+    assert len(judged) == 2
+    assert all(f.ok for f in judged)
 
 
 def test_every_ray_of_an_orchard_scan_returns_and_those_of_a_trunk_lie_on_it() -> None:

@@ -52,5 +52,8 @@ def test_trunks_are_the_things_that_are_thick_round_and_met_often_enough(seed: i
     edge, loose = 0.41 * step * rho, np.where(cut > 0, 0.04, 0.0)
     range_std, across = np.sqrt(noise**2 / rays + (0.5 * edge) ** 2 + loose**2), np.hypot(0.5 * edge, loose) / rho
     moment = 0.5 * (first + last) / (len(angles) - 1)
-    columns = found[:, 0], rho, range_std, across, 2.0 * radius, np.hypot(edge, loose), cut, rays, moment, rms / noise
+    columns = (
+        found[:, 0], rho, range_std, across, 2.0 * radius, np.hypot(edge, loose), cut, rays, moment, rms / noise,
+        first, last,
+    )  # fmt: skip
     assert told == pytest.approx(np.array(columns)[:, good], abs=1e-15)

@@ -111,6 +111,13 @@ def test_as_many_rays_as_paper_b_expects() -> None:
     assert expected_rays(0.1, ranges, np.radians(0.225)) == pytest.approx(360 * 0.1 / (2 * np.pi * ranges * 0.225))
 
 
+def test_the_rays_that_met_a_trunk_are_told() -> None:
+    angles, distances = scan_of(at((-60.0, 1.5), (40.0, 3.0)), np.array([0.12, 0.1]))
+    found = ScanClusters().find(angles, distances)
+    met = np.concatenate([np.arange(a, b + 1) for a, b in zip(found.first, found.last, strict=True)])
+    assert sorted(met) == np.flatnonzero(distances).tolist()
+
+
 def test_columns_of_a_table_are_a_scan_as_good_as_any() -> None:
     angles, distances = scan_of(at((-60.0, 1.5)), np.array((0.1,)))
     table = np.column_stack((angles, distances))

@@ -26,7 +26,7 @@ def room(turned: float, noise: float = 0.0, seed: int = 0) -> Floats:
     return np.asarray(np.minimum(to_x, to_y) + np.random.default_rng(seed).normal(0.0, noise, len(ANGLES)))
 
 
-@settings(deadline=None, max_examples=40)
+@settings(deadline=None, max_examples=100)
 @given(st.floats(-math.pi, math.pi))
 def test_a_room_has_four_walls_however_the_sensor_is_turned(turned: float) -> None:
     """One of them, or a corner, lies where the turn begins."""
