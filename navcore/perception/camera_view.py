@@ -80,12 +80,12 @@ def plants_of_row(seen: SeenRow) -> tuple[ScannedPlant, ...]:
 
 
 def camera_view(
-    camera: PinholeCamera, seen: SeenRow, row: RowObservation, latency_ms: float, region: ImageArea | None = None
+    camera: PinholeCamera, seen: SeenRow, latency_ms: float, region: ImageArea | None = None
 ) -> CameraView:
     """Boxes, corner points, lines and plants, as they are drawn over the picture and from above. A row that is not
     valid has no lines.
     """
-    lines = seen.lines
+    row, lines = seen.row, seen.lines
     shown = None if isinstance(seen.ground, str) or not row.valid else seen.ground
     left, right = (lines.left, lines.right) if shown else (None, None)
     centre = image_line(camera, offset=shown.offset, heading=shown.heading, pitch=shown.pitch) if shown else None

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from navcore.geometry.pinhole import PinholeCamera
 from navcore.geometry.se2 import SE2
-from navcore.messages import CameraName, CameraView, DetectedObject, RowObservation
+from navcore.messages import CameraName, CameraView, DetectedObject
 from navcore.perception.camera_view import camera_view, plants_of_row, row_observation
 from navcore.perception.corner_points import CornerPoints, corner_points
 from navcore.perception.corridor_kernels import SURE
@@ -105,7 +105,7 @@ class RowPerception:
     ) -> CameraView:  # fmt: skip
         """What is seen in one picture, see `observe`, with all that is drawn over it."""
         seen = self.observe(image, stamp_ns, camera_name, prior=prior, motion=motion, plants=plants)
-        return self.drawn(seen, seen.row, latency_ms)
+        return self.drawn(seen, latency_ms)
 
     def observe(
         self, image: Image | None, stamp_ns: int, camera_name: CameraName, *, prior: RowPrior | None = None,
@@ -136,9 +136,9 @@ class RowPerception:
         seen = SeenRow(row, look, lines, ground, bisector, bearings)
         return seen._replace(row=replace(row, plants=plants_of_row(seen))) if row.in_sight else seen
 
-    def drawn(self, seen: SeenRow, row: RowObservation, latency_ms: float = 0.0) -> CameraView:
-        """What was seen, drawn with the row as it is told."""
-        return camera_view(self._camera, seen, row, latency_ms, self._region)
+    def drawn(self, seen: SeenRow, latency_ms: float = 0.0) -> CameraView:
+        """What was seen, as it is drawn."""
+        return camera_view(self._camera, seen, latency_ms, self._region)
 
     def _look(self, image: Image | None, scanned: ScannedPlants | None, prior: RowPrior | None) -> Look:
         fault = self._fault(image) if image is not None else "the camera gives no picture"

@@ -37,6 +37,11 @@ class Look(NamedTuple):
     level: NDArray[np.float64]
 
     @property
+    def boxed(self) -> NDArray[np.int64]:
+        """Which plants are objects of the picture, rising."""
+        return np.sort(self.found[self.found >= 0])
+
+    @property
     def source(self) -> RowSource:
         """The sensors that took part."""
         if self.scan is None:

@@ -82,7 +82,7 @@ class RowEye:
 
     def drawn(self, seen: SeenRow, latency_ms: float = 0.0) -> CameraView:
         """What was seen last, for whoever looks on."""
-        view = self._perceptions[seen.row.camera].drawn(seen, seen.row, latency_ms)
+        view = self._perceptions[seen.row.camera].drawn(seen, latency_ms)
         return self._with_scan(view, seen.row.camera) if seen.look.scanned else view
 
     def _plants(self, stamp_ns: int, request: CameraRequest, scans: tuple[LidarScan, ...]) -> ScannedPlants | None:
@@ -105,8 +105,8 @@ class RowEye:
         watch = self._watches.get(row.camera)
         if watch is None:
             return row
-        boxed = told_plants(seen, np.sort(seen.look.found[seen.look.found >= 0]))
-        agreement = watch.see(seen.row.stamp_ns, seen.look.plants.number.tolist(), boxed, seen.bearings)
+        boxed, numbers = told_plants(seen, seen.look.boxed), seen.look.plants.number.tolist()
+        agreement = watch.see(row.stamp_ns, numbers, boxed, seen.bearings)
         return replace(row, agreement=agreement) if agreement else row
 
     def _with_scan(self, view: CameraView, camera: CameraName) -> CameraView:
@@ -123,9 +123,8 @@ class RowEye:
     def _tell(self, seen: SeenRow, camera: PinholeCamera) -> None:
         """What the picture makes of the plants, if there is one."""
         if self._scan_eye is not None and seen.row.source is RowSource.FUSED:
-            plants, found = seen.look.plants, seen.look.found
-            boxed = plants.number[np.sort(found[found >= 0])]
-            self._scan_eye.told(boxed, plants.number[should_be_seen(plants, camera)])
+            plants = seen.look.plants
+            self._scan_eye.told(plants.number[seen.look.boxed], plants.number[should_be_seen(plants, camera)])
 
     def _missing(self, request: CameraRequest, plants: ScannedPlants | None) -> str:
         """What is wrong with the LiDAR where a row is expected."""
